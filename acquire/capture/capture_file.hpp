@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <facula/acquire/capture/capture.hpp>
+
+#include <filesystem>
+#include <optional>
+
+namespace facula {
+
+/// Reads capture.toml (or the capture.toml of a folder) and the rig it names. Relative paths count
+/// from the file's folder; `frames_folder`, when given, is where all frames lie instead. Throws
+/// Error on a missing file, an unknown key (with the nearest known one), frames that are missing,
+/// or a number of frames that differs from the number of positions.
+Capture read_capture(const std::filesystem::path& path,
+                     const std::optional<std::filesystem::path>& frames_folder = std::nullopt);
+
+}  // namespace facula

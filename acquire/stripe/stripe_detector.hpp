@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <facula/acquire/core/image_view.hpp>
+#include <facula/acquire/rig/rig.hpp>
+#include <facula/acquire/stripe/channel.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace facula {
+
+enum class DetectorKind {
+  kFirZeroCrossing,  ///< zero crossing of the Gaussian-smoothed derivative (Forest 2004; Steger
+                     ///< 1998)
+  kCentroid          ///< centre of gravity of +-10 px about the brightest (source B, 2.3)
+};
+
+/// Part of the image that is searched; width or height 0 means up to the border.
+struct ImageRegion {
+  int x = 0;       ///< [px]
+  int y = 0;       ///< [px]
+  int width = 0;   ///< [px]
+  int height = 0;  ///< [px]
+};
+
+struct StripeOptions {
+  DetectorKind detector = DetectorKind::kFirZeroCrossing;
+  Channel channel = Channel::kRedExcess;
+  StripeDirection direction = StripeDirection::kPerRow;
+  double sigma = 2.0;          ///< expected width of the line, standard deviation [px], 0.5 to 10
+  double min_snr = 6.0;        ///< least filter response over its own noise [1], above 0
+  double min_amplitude = 8;    ///< least height over the surroundings [DN], 0 to 255
+  double max_width_ratio = 4;  ///< widest stripe kept, in units of sigma [1], above 1
+  ImageRegion region;          ///< [px]
+
+  /// Throws Error naming the field, its value and its bound.
+  void check() const;
+};
+
+/// The stripe of one frame: an entry per image row (or column). Rows where no stripe stands out
+/// from the noise are not seen; their other values are 0.
+struct StripeProfile {
+  std::vector<std::uint8_t> seen;       ///< 1 where the stripe was found [0 or 1]
+  std::vector<float> position;          ///< along the row [px]
+  std::vector<float> sigma;             ///< 1 standard deviation of position [px]
+  std::vector<float> amplitude;         ///< height over the surroundings [DN]
+  std::vector<float> width;             ///< standard deviation of the line's profile [px]
+  std::vector<std::uint8_t> saturated;  ///< 1 where the core is clipped [0 or 1]
+  float noise = 0;                      ///< of the image, estimated, 1 standard deviation [DN]
+
+  static StripeProfile none(std::size_t rows);
+  std::size_t size() const { return seen.size(); }
+  std::size_t seen_count() const;
+};
+
+/// Finds the stripe in a frame. `background`, when not empty, is the same view without the laser
+/// and is subtracted. Frames may be grey or colour; see StripeOptions::channel.
+StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const StripeOptions& options);
+
+/// "fir" or "centroid".
+DetectorKind detector_from_name(const std::string& name);
+std::string to_string(DetectorKind kind);
+
+}  // namespace facula

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <facula/acquire/core/point_cloud.hpp>
+#include <facula/acquire/core/rigid_transform.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace facula {
+
+/// One scan of a project: its cloud in its own frame, with sensor origins, and its pose.
+struct PosedCloud {
+  std::string name;
+  std::filesystem::path file;
+  PointCloud cloud;
+  RigidTransform world_from_scan;
+};
+
+/// Several scans with their poses.
+struct ScanProject {
+  std::vector<PosedCloud> scans;
+
+  /// All points in the world frame.
+  PointCloud fused() const;
+};
+
+/// Reads posed scans:
+///   poses.toml           [[scan]] tables with name, file, translation_mm, quaternion_xyzw
+///   *.conf               Stanford range scans (`bmesh FILE tx ty tz qx qy qz qw`; x_in_world =
+///                        R(conj(q)) x + t; the `camera` line is not a sensor origin)
+///   a folder of 3DTK     scanNNN.3d + scanNNN.pose: centimetres, left-handed, Euler angles; ranges
+///                        outside `min`..`max` of config.ini are dropped; turned to z up, metres
+///   a single scan file   .pcd, .ply, .asc, .xyz: one scan, with its VIEWPOINT
+/// Scan files may be compressed (.gz, .xz). Throws Error as the file readers do.
+ScanProject read_scan_project(const std::filesystem::path& path);
+
+/// Writes poses.toml beside the scans it names (paths relative to it where possible).
+void write_poses(const std::filesystem::path& path, const ScanProject& project);
+
+}  // namespace facula
