@@ -30,12 +30,16 @@ struct IcpResult {
   std::size_t inliers = 0;  ///< correspondences of the last step [1]
   double overlap = 0;       ///< share of source points with a correspondence [0..1]
   double rms = 0;           ///< point-to-plane distance over the inliers [m]
-  Eigen::Matrix<double, 6, 6> covariance =
-      Eigen::Matrix<double, 6, 6>::Zero();  ///< of (translation [m], rotation [rad])
+
+  /// Of the twist e = (translation [m], rotation [rad]) in true pose = exp_se3(e) * estimate, from
+  /// the residuals' own scatter. Holds for errors that differ from point to point; what both clouds
+  /// share (a bent scanner, a wrong scale) does not show in it.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 /// Point-to-plane ICP (Chen and Medioni 1992) by Gauss-Newton with a robust (Geman-McClure) weight.
-/// `target` needs normals. Throws Error when either cloud is empty or the overlap is too small to
+/// `target` needs normals. Where both clouds have normals, those of a pair must agree; sides count
+/// only where both have sensor origins. Throws Error when either cloud is empty or the overlap is too small to
 /// decide the pose.
 IcpResult register_icp(const PointCloud& source,
                        const PointCloud& target,

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/reconstruct/measure/bounding_rectangle.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace facula {
+namespace {
+
+double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  const Eigen::Vector2d ab = b - a;
+  const Eigen::Vector2d ac = c - a;
+  return ab.x() * ac.y() - ab.y() * ac.x();
+}
+
+/// Corners of the convex hull, counter-clockwise (Andrew's monotone chain, 1979).
+std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  });
+  std::vector<Eigen::Vector2d> hull;
+  const auto add_chain = [&hull](auto first, auto last) {
+    const std::size_t base = hull.size();
+    for (; first != last; ++first) {
+      while (hull.size() >= base + 2 && turn(hull[hull.size() - 2], hull.back(), *first) <= 0) {
+        hull.pop_back();
+      }
+      hull.push_back(*first);
+    }
+    hull.pop_back();  // the next chain starts with it
+  };
+  add_chain(points.begin(), points.end());
+  add_chain(points.rbegin(), points.rend());
+  return hull;
+}
+
+}  // namespace
+
+RectangleSides smallest_bounding_rectangle(std::vector<Eigen::Vector2d> points) {
+  if (points.empty()) return {};
+  const std::vector<Eigen::Vector2d> hull = convex_hull(std::move(points));
+  RectangleSides best;
+  double best_area = INFINITY;
+  // One side of the rectangle of least area lies along an edge of the hull (Freeman, Shapira 1975).
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d edge = hull[(i + 1) % hull.size()] - hull[i];
+    if (edge.norm() == 0) continue;
+    const Eigen::Vector2d u = edge.normalized();
+    const Eigen::Vector2d v(-u.y(), u.x());
+    Eigen::Array2d low = Eigen::Array2d::Constant(INFINITY);
+    Eigen::Array2d high = Eigen::Array2d::Constant(-INFINITY);
+    for (const Eigen::Vector2d& p : hull) {
+      const Eigen::Array2d position(p.dot(u), p.dot(v));
+      low = low.min(position);
+      high = high.max(position);
+    }
+    const Eigen::Array2d side = high - low;
+    if (side.prod() >= best_area) continue;
+    best_area = side.prod();
+    best = {side.maxCoeff(), side.minCoeff()};
+  }
+  return best;
+}
+
+}  // namespace facula
