@@ -32,16 +32,24 @@ struct ZeroLine {
   double bed_position = 0;                    ///< where the bed's line should lie [px]
 };
 
+/// How frames with and without the laser follow each other in one sequence.
+enum class Alternation {
+  kNone,     ///< `frames` holds lit frames only
+  kOnFirst,  ///< lit, dark, lit, dark, ...
+  kOffFirst  ///< dark, lit, dark, lit, ...
+};
+
 /// A recorded scan: which rig took it, its frames, and the axis position of every frame.
 struct Capture {
   std::filesystem::path file;      ///< the capture.toml it was read from
   std::filesystem::path rig_file;  ///< the rig it names
   Rig rig;
   std::size_t laser = 0;                          ///< index of the sheet that is lit [1]
-  std::vector<std::filesystem::path> frames;      ///< laser on, one per position; or one video
+  std::vector<std::filesystem::path> frames;      ///< images, or one video
   std::vector<std::filesystem::path> background;  ///< laser off; empty, one for all, or one each
-  std::vector<double> positions;                  ///< of the axis [rad or m]
-  double frame_interval = 0;                      ///< time between frames, 0 = unknown [s]
+  Alternation alternation = Alternation::kNone;
+  std::vector<double> positions;  ///< of the axis, one per lit frame [rad or m]
+  double frame_interval = 0;      ///< time between positions, 0 = unknown [s]
   StripeOptions stripe;
   WorkVolume volume;
   std::optional<ZeroLine> zero_line;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <facula/acquire/capture/capture.hpp>
 #include <facula/acquire/core/image_view.hpp>
 
 #include <cstddef>
@@ -13,7 +14,10 @@ namespace facula {
 /// Gives the frames of a capture by number. read() may be called from several threads.
 class FrameSource {
  public:
+  FrameSource() = default;
   virtual ~FrameSource() = default;
+  FrameSource(const FrameSource&) = delete;
+  FrameSource& operator=(const FrameSource&) = delete;
 
   virtual std::size_t size() const = 0;
 
@@ -24,7 +28,23 @@ class FrameSource {
 /// Images, or one video file that is then read frame by frame.
 std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path>& files);
 
-/// One image, grey or colour as stored. Throws Error when the file is missing or is not an image.
+/// The frames of a capture: lit(i), and dark(i) which is empty where the capture has no background.
+class CaptureFrames {
+ public:
+  explicit CaptureFrames(const Capture& capture);
+
+  std::size_t size() const;
+  Image8 lit(std::size_t i) const;
+  Image8 dark(std::size_t i) const;
+
+ private:
+  std::unique_ptr<FrameSource> frames_;
+  std::unique_ptr<FrameSource> background_;
+  Image8 common_background_;
+  Alternation alternation_;
+};
+
+/// One image, grey or colour, 8 bit. Throws Error when the file is missing, torn or no image.
 Image8 read_image(const std::filesystem::path& path);
 
 /// Writes an image (.png or .jpg), whole or not at all.

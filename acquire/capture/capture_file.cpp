@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/capture/axis_positions.hpp>
+#include <facula/acquire/capture/capture_file.hpp>
+#include <facula/acquire/capture/frame_list.hpp>
+#include <facula/acquire/capture/frame_source.hpp>
+#include <facula/acquire/core/error.hpp>
+#include <facula/acquire/rig/rig_file.hpp>
+#include <facula/acquire/rig/toml_table.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace facula {
+namespace {
+
+using OptionalPath = std::optional<std::filesystem::path>;
+
+std::filesystem::path frames_base(TomlTable& table, const OptionalPath& frames_folder) {
+  const std::filesystem::path in_file = table.folder() / table.text_if("folder").value_or("");
+  return frames_folder.value_or(in_file);
+}
+
+Alternation read_alternation(TomlTable& table) {
+  const std::string name = table.text_if("alternating").value_or("no");
+  if (name == "no") return Alternation::kNone;
+  if (name == "on-first") return Alternation::kOnFirst;
+  if (name == "off-first") return Alternation::kOffFirst;
+  fail(table.where("alternating"), ": expected no, on-first or off-first, got '", name, "'");
+}
+
+void read_frames(TomlTable table, const OptionalPath& frames_folder, Capture& capture) {
+  const std::filesystem::path base = frames_base(table, frames_folder);
+  capture.frames = list_frames(base, table.text("on"));
+  if (const auto off = table.text_if("off")) capture.background = list_frames(base, *off);
+  capture.alternation = read_alternation(table);
+  require(capture.alternation == Alternation::kNone || capture.background.empty(),
+          table.where("off"),
+          ": alternating frames bring their own background; drop one of the two");
+  capture.frame_interval = table.number_if("interval_s").value_or(0);
+  if (const auto zero = table.text_if("zero_line")) {
+    capture.zero_line = ZeroLine{};
+    capture.zero_line->frames = list_frames(base, *zero);
+  }
+  table.finish();
+}
+
+std::vector<double> stepped_positions(TomlTable& table, AxisKind axis, std::size_t count) {
+  const bool linear = axis == AxisKind::kLinear;
+  const double unit = linear ? 1e-3 : std::numbers::pi / 180;
+  const double start = table.number_if(linear ? "start_mm" : "start_deg").value_or(0) * unit;
+  const double step = table.number(linear ? "step_mm" : "step_deg") * unit;
+  std::vector<double> positions(count);
+  for (std::size_t i = 0; i < count; ++i) positions[i] = start + static_cast<double>(i) * step;
+  return positions;
+}
+
+void read_positions(std::optional<TomlTable> table, std::size_t count, Capture& capture) {
+  const AxisKind axis = capture.rig.axis.kind;
+  if (!table) {
+    require(axis == AxisKind::kNone,
+            capture.file.string(),
+            ": a rig with a ",
+            to_string(axis),
+            " axis needs a table [positions]");
+    capture.positions.assign(count, 0);
+    return;
+  }
+  if (const auto csv = table->text_if("csv")) {
+    capture.positions = read_axis_positions(table->folder() / *csv, axis);
+  } else {
+    capture.positions = stepped_positions(*table, axis, count);
+  }
+  table->finish();
+}
+
+ImageRegion read_region(TomlTable& table) {
+  if (!table.has("region_px")) return {};
+  const std::vector<double> r = table.numbers("region_px");
+  require(r.size() == 4, table.where("region_px"), ": expected [x, y, width, height]");
+  return {static_cast<int>(r[0]),
+          static_cast<int>(r[1]),
+          static_cast<int>(r[2]),
+          static_cast<int>(r[3])};
+}
+
+StripeOptions read_stripe(TomlTable table, StripeDirection direction) {
+  StripeOptions options;
+  if (const auto name = table.text_if("detector")) options.detector = detector_from_name(*name);
+  if (const auto name = table.text_if("channel")) options.channel = channel_from_name(*name);
+  options.direction = direction;
+  options.sigma = table.number_if("sigma_px").value_or(options.sigma);
+  options.min_snr = table.number_if("min_snr").value_or(options.min_snr);
+  options.min_amplitude = table.number_if("min_amplitude").value_or(options.min_amplitude);
+  options.max_width_ratio = table.number_if("max_width_ratio").value_or(options.max_width_ratio);
+  options.region = read_region(table);
+  table.finish();
+  options.check();
+  return options;
+}
+
+std::optional<double> length_if(TomlTable& table, const std::string& key) {
+  const std::optional<double> value = table.number_if(key);
+  return value ? std::optional<double>(*value * 1e-3) : std::nullopt;
+}
+
+WorkVolume read_volume(TomlTable table) {
+  WorkVolume volume;
+  volume.max_radius = length_if(table, "max_radius_mm");
+  volume.min_z = length_if(table, "min_z_mm");
+  volume.max_z = length_if(table, "max_z_mm");
+  volume.min_depth = length_if(table, "min_depth_mm");
+  volume.max_depth = length_if(table, "max_depth_mm");
+  table.finish();
+  return volume;
+}
+
+void read_zero_line(TomlTable table, Capture& capture) {
+  require(capture.zero_line.has_value(),
+          table.where("bed_rows"),
+          ": [zero_line] needs its frames named in [frames], key zero_line");
+  for (const Eigen::Vector2d& rows : table.pairs("bed_rows")) {
+    capture.zero_line->bed_rows.emplace_back(static_cast<int>(rows.x()),
+                                             static_cast<int>(rows.y()));
+  }
+  capture.zero_line->bed_position = table.number("bed_position_px");
+  table.finish();
+}
+
+std::size_t lit_frame_count(const Capture& capture) {
+  const std::size_t frames =
+      capture.frames.size() == 1 ? open_frames(capture.frames)->size() : capture.frames.size();
+  return capture.alternation == Alternation::kNone ? frames : frames / 2;
+}
+
+void check_counts(const Capture& capture, std::size_t lit) {
+  require(capture.positions.size() == lit,
+          capture.file.string(),
+          ": expected as many axis positions as frames, got ",
+          capture.positions.size(),
+          " positions for ",
+          lit,
+          " frames; check [positions] and the pattern in [frames]");
+  require(capture.background.size() <= 1 || capture.background.size() == lit,
+          capture.file.string(),
+          ": expected one background for all frames or one each, got ",
+          capture.background.size(),
+          " for ",
+          lit,
+          " frames");
+  require(!capture.zero_line || capture.zero_line->frames.size() == lit,
+          capture.file.string(),
+          ": expected one zero_line frame per position, got ",
+          capture.zero_line ? capture.zero_line->frames.size() : 0,
+          " for ",
+          lit);
+}
+
+/// The laser the capture names, or the only one.
+std::size_t read_laser(TomlTable& table, const Rig& rig) {
+  const std::optional<std::string> name = table.text_if("laser");
+  if (!name) return 0;
+  for (std::size_t i = 0; i < rig.lasers.size(); ++i) {
+    if (rig.lasers[i].name == *name) return i;
+  }
+  fail(table.where("laser"), ": the rig has no laser '", *name, "'");
+}
+
+}  // namespace
+
+Capture read_capture(const std::filesystem::path& path, const OptionalPath& frames_folder) {
+  Capture capture;
+  capture.file = std::filesystem::is_directory(path) ? path / "capture.toml" : path;
+  TomlTable table = TomlTable::from_file(capture.file);
+  capture.rig_file = table.folder() / table.text("rig");
+  capture.rig = read_rig(capture.rig_file);
+  capture.laser = read_laser(table, capture.rig);
+  std::optional<TomlTable> positions = table.table_if("positions");
+  std::optional<TomlTable> stripe = table.table_if("stripe");
+  std::optional<TomlTable> volume = table.table_if("volume");
+  std::optional<TomlTable> zero_line = table.table_if("zero_line");
+  std::optional<TomlTable> pose = table.table_if("pose");
+  TomlTable frames = table.table("frames");
+  table.finish();
+
+  capture.stripe.direction = capture.rig.stripe_direction;
+  if (stripe) capture.stripe = read_stripe(std::move(*stripe), capture.rig.stripe_direction);
+  if (volume) capture.volume = read_volume(std::move(*volume));
+  if (pose) {
+    capture.world_from_scan = pose->pose();
+    pose->finish();
+  }
+  read_frames(std::move(frames), frames_folder, capture);
+  if (zero_line) read_zero_line(std::move(*zero_line), capture);
+  const std::size_t lit = lit_frame_count(capture);
+  read_positions(std::move(positions), lit, capture);
+  check_counts(capture, lit);
+  return capture;
+}
+
+}  // namespace facula

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/stripe/fir_zero_crossing.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace facula {
+namespace {
+
+/// A Gaussian and its first two derivatives, sampled at whole pixels -radius..radius.
+struct Kernels {
+  int radius = 0;
+  std::vector<float> smooth;
+  std::vector<float> slope;
+  std::vector<float> curvature;
+  float slope_norm = 0;      ///< noise gain of the slope [1]
+  float curvature_norm = 0;  ///< noise gain of the curvature [1]
+};
+
+float norm(const std::vector<float>& values) {
+  double sum = 0;
+  for (const float v : values) sum += static_cast<double>(v) * v;
+  return static_cast<float>(std::sqrt(sum));
+}
+
+Kernels make_kernels(double sigma) {
+  Kernels k;
+  k.radius = std::max(2, static_cast<int>(std::ceil(4 * sigma)));
+  double smooth_sum = 0;
+  for (int i = -k.radius; i <= k.radius; ++i)
+    smooth_sum += std::exp(-0.5 * i * i / (sigma * sigma));
+  double curvature_sum = 0;
+  for (int i = -k.radius; i <= k.radius; ++i) {
+    const double g = std::exp(-0.5 * i * i / (sigma * sigma)) / smooth_sum;
+    k.smooth.push_back(static_cast<float>(g));
+    k.slope.push_back(static_cast<float>(i / (sigma * sigma) * g));
+    k.curvature.push_back(static_cast<float>((1 - i * i / (sigma * sigma)) / (sigma * sigma) * g));
+    curvature_sum += k.curvature.back();
+  }
+  // Sampling leaves a small mean, through which a bright surface would look like a line.
+  for (std::size_t i = 0; i < k.curvature.size(); ++i) {
+    k.curvature[i] -= static_cast<float>(curvature_sum) * k.smooth[i];
+  }
+  k.slope_norm = norm(k.slope);
+  k.curvature_norm = norm(k.curvature);
+  return k;
+}
+
+/// Sum of kernel times row about column c; beyond the borders the row goes on level.
+float filtered(const std::vector<float>& kernel, const float* row, int c, int cols) {
+  const int radius = static_cast<int>(kernel.size() / 2);
+  float sum = 0;
+  if (c >= radius && c + radius < cols) {
+    const float* s = row + (c - radius);
+    for (std::size_t i = 0; i < kernel.size(); ++i) sum += kernel[i] * s[i];
+    return sum;
+  }
+  for (int i = -radius; i <= radius; ++i) {
+    sum += kernel[static_cast<std::size_t>(i + radius)] * row[std::clamp(c + i, 0, cols - 1)];
+  }
+  return sum;
+}
+
+class FirZeroCrossing : public RowDetector {
+ public:
+  explicit FirZeroCrossing(double sigma)
+      : sigma_(static_cast<float>(sigma)), kernels_(make_kernels(sigma)) {}
+
+  std::optional<StripeCandidate> find(const StripeSignal& signal,
+                                      int r,
+                                      int begin,
+                                      int end) const override {
+    if (end - begin < 3) return std::nullopt;
+    const float* row = signal.row(r);
+    const int cols = signal.cols();
+    const int peak = strongest_line(row, begin, end, cols);
+    const std::optional<float> position = zero_crossing(row, peak, begin, end, cols);
+    if (!position) return std::nullopt;
+    return describe(signal, r, *position);
+  }
+
+ private:
+  /// Where the smoothed row bends most, which is the middle of its most line-like place.
+  int strongest_line(const float* row, int begin, int end, int cols) const {
+    int best = begin;
+    float best_bend = -1;
+    for (int c = begin; c < end; ++c) {
+      const float bend = filtered(kernels_.curvature, row, c, cols);
+      if (bend > best_bend) {
+        best_bend = bend;
+        best = c;
+      }
+    }
+    return best;
+  }
+
+  /// The downward zero of the smoothed derivative nearest to `peak`, linear between two pixels.
+  std::optional<float> zero_crossing(
+      const float* row, int peak, int begin, int end, int cols) const {
+    const int reach = std::max(2, static_cast<int>(std::lround(1.5F * sigma_)));
+    std::optional<float> nearest;
+    const int first = std::max(begin, peak - reach);
+    const int last = std::min(end - 1, peak + reach);
+    float left = filtered(kernels_.slope, row, first, cols);
+    for (int c = first; c < last; ++c) {
+      const float right = filtered(kernels_.slope, row, c + 1, cols);
+      if (left > 0 && right <= 0) {
+        const float zero = static_cast<float>(c) + left / (left - right);
+        if (!nearest || std::abs(zero - static_cast<float>(peak)) <
+                            std::abs(*nearest - static_cast<float>(peak))) {
+          nearest = zero;
+        }
+      }
+      left = right;
+    }
+    return nearest;
+  }
+
+  /// Amplitude, width, uncertainty and misfit at the position found. With P the smoothed height and
+  /// L the smoothed bend of a Gaussian line of width w: P / L = w^2 + sigma^2.
+  std::optional<StripeCandidate> describe(const StripeSignal& signal, int r, float position) const {
+    const float* row = signal.row(r);
+    const int cols = signal.cols();
+    const int c = static_cast<int>(std::lround(position));
+    const float bend = filtered(kernels_.curvature, row, c, cols);
+    if (!(bend > 0)) return std::nullopt;
+    StripeCandidate found;
+    found.position = position;
+    found.background = surroundings(row, c, cols);
+    const float height = filtered(kernels_.smooth, row, c, cols) - found.background;
+    const float variance = height / bend;
+    found.width = std::sqrt(std::max(0.0F, variance - sigma_ * sigma_));
+    found.amplitude = found.width > 0 ? height * std::sqrt(variance) / found.width : 0;
+    found.snr_per_noise = bend / kernels_.curvature_norm;
+    found.sigma_per_noise = kernels_.slope_norm / bend;
+    found.saturated = signal.clipped(r, std::clamp(c, 0, cols - 1));
+    found.residual = misfit(row, cols, found);
+    return found;
+  }
+
+  /// Mean level beside the stripe, 4 to 6 widths off on both sides.
+  float surroundings(const float* row, int c, int cols) const {
+    const int near = static_cast<int>(std::ceil(4 * sigma_));
+    const int far = static_cast<int>(std::ceil(6 * sigma_));
+    float sum = 0;
+    int count = 0;
+    for (int d = near; d <= far; ++d) {
+      if (c - d >= 0) sum += row[c - d], ++count;
+      if (c + d < cols) sum += row[c + d], ++count;
+    }
+    return count > 0 ? sum / static_cast<float>(count) : 0;
+  }
+
+  /// Mean square difference to the Gaussian profile over +-2 widths, three parameters taken off.
+  static float misfit(const float* row, int cols, const StripeCandidate& found) {
+    const float width = std::max(0.5F, found.width);
+    const int first = std::max(0, static_cast<int>(std::ceil(found.position - 2 * width)));
+    const int last = std::min(cols - 1, static_cast<int>(std::floor(found.position + 2 * width)));
+    float sum = 0;
+    for (int c = first; c <= last; ++c) {
+      const float z = (static_cast<float>(c) - found.position) / width;
+      const float model = found.background + found.amplitude * std::exp(-0.5F * z * z);
+      sum += (row[c] - model) * (row[c] - model);
+    }
+    return sum / static_cast<float>(std::max(1, last - first + 1 - 3));
+  }
+
+  float sigma_;
+  Kernels kernels_;
+};
+
+}  // namespace
+
+std::unique_ptr<RowDetector> make_fir_zero_crossing(double sigma) {
+  return std::make_unique<FirZeroCrossing>(sigma);
+}
+
+}  // namespace facula

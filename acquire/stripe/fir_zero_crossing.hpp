@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <facula/acquire/stripe/stripe_candidate.hpp>
+
+#include <memory>
+
+namespace facula {
+
+/// The default detector: the stripe's middle is where the row, smoothed by a Gaussian of the line's
+/// own width and differentiated, crosses zero downwards (Forest et al. 2004; Steger 1998 in one
+/// dimension). For a line of that width the estimate reaches the Cramér-Rao bound; a flat pedestal,
+/// a linear ramp and a clipped core do not shift it. `sigma` is the filter's width [px].
+std::unique_ptr<RowDetector> make_fir_zero_crossing(double sigma);
+
+}  // namespace facula

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <facula/acquire/stripe/channel.hpp>
+
+namespace facula {
+
+/// Noise of a frame [DN, 1 standard deviation]: the median over all rows of a robust estimate from
+/// second differences (median absolute value, which a stripe in a few pixels does not move). At
+/// least the quantisation noise 1/sqrt(12) of an 8-bit frame.
+float estimate_noise(const StripeSignal& signal);
+
+}  // namespace facula

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/error.hpp>
+#include <facula/acquire/stripe/centroid.hpp>
+#include <facula/acquire/stripe/fir_zero_crossing.hpp>
+#include <facula/acquire/stripe/row_noise.hpp>
+#include <facula/acquire/stripe/stripe_candidate.hpp>
+#include <facula/acquire/stripe/stripe_detector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace facula {
+namespace {
+
+/// The detectors, by the names people give them.
+struct DetectorRow {
+  DetectorKind kind;
+  const char* name;
+  std::unique_ptr<RowDetector> (*make)(const StripeOptions&);
+};
+
+constexpr std::array<DetectorRow, 2> kDetectors = {{
+    {DetectorKind::kFirZeroCrossing,
+     "fir",
+     [](const StripeOptions& options) { return make_fir_zero_crossing(options.sigma); }},
+    {DetectorKind::kCentroid, "centroid", [](const StripeOptions&) { return make_centroid(); }},
+}};
+
+std::unique_ptr<RowDetector> make_detector(const StripeOptions& options) {
+  for (const DetectorRow& row : kDetectors) {
+    if (row.kind == options.detector) return row.make(options);
+  }
+  fail("expected a known stripe detector");
+}
+
+/// Rows [first, last) and, within a row, columns [begin, end) that are searched.
+struct SearchArea {
+  int first = 0;
+  int last = 0;
+  int begin = 0;
+  int end = 0;
+};
+
+SearchArea search_area(const StripeSignal& signal, const StripeOptions& options) {
+  const bool transposed = options.direction == StripeDirection::kPerColumn;
+  const ImageRegion& region = options.region;
+  const int first = transposed ? region.x : region.y;
+  const int begin = transposed ? region.y : region.x;
+  const int rows = transposed ? region.width : region.height;
+  const int cols = transposed ? region.height : region.width;
+  SearchArea area;
+  area.first = std::clamp(first, 0, signal.rows());
+  area.last = rows > 0 ? std::clamp(first + rows, area.first, signal.rows()) : signal.rows();
+  area.begin = std::clamp(begin, 0, signal.cols());
+  area.end = cols > 0 ? std::clamp(begin + cols, area.begin, signal.cols()) : signal.cols();
+  return area;
+}
+
+using Candidates = std::vector<std::optional<StripeCandidate>>;
+
+bool stands_out(const StripeCandidate& found, float noise, const StripeOptions& options) {
+  return static_cast<double>(found.snr_per_noise) >= options.min_snr * noise &&
+         static_cast<double>(found.amplitude) >= options.min_amplitude &&
+         static_cast<double>(found.width) <= options.max_width_ratio * options.sigma;
+}
+
+/// How the variance grows with the signal (photon noise, speckle): the median over the stripes of
+/// (misfit - noise^2) / amplitude, at least 0 [DN]. Clipped stripes say nothing about it.
+float signal_noise_gain(const Candidates& candidates, float noise) {
+  std::vector<float> gains;
+  for (const auto& found : candidates) {
+    if (found && !found->saturated && found->amplitude > 0) {
+      gains.push_back((found->residual - noise * noise) / found->amplitude);
+    }
+  }
+  if (gains.size() < 16) return 0;
+  const auto middle = gains.begin() + static_cast<std::ptrdiff_t>(gains.size() / 2);
+  std::nth_element(gains.begin(), middle, gains.end());
+  return std::max(0.0F, *middle);
+}
+
+void store(const StripeCandidate& found, float gain, std::size_t r, StripeProfile& profile) {
+  const float variance = profile.noise * profile.noise + gain * found.amplitude;
+  profile.seen[r] = 1;
+  profile.position[r] = found.position;
+  profile.sigma[r] = found.sigma_per_noise * std::sqrt(variance);
+  profile.amplitude[r] = found.amplitude;
+  profile.width[r] = found.width;
+  profile.saturated[r] = found.saturated ? 1 : 0;
+}
+
+}  // namespace
+
+void StripeOptions::check() const {
+  require(sigma >= 0.5 && sigma <= 10, "stripe sigma_px: expected 0.5 to 10, got ", sigma);
+  require(min_snr > 0 && min_snr < 1e6, "stripe min_snr: expected above 0, got ", min_snr);
+  require(min_amplitude >= 0 && min_amplitude <= 255,
+          "stripe min_amplitude: expected 0 to 255, got ",
+          min_amplitude);
+  require(max_width_ratio > 1, "stripe max_width_ratio: expected above 1, got ", max_width_ratio);
+  require(region.x >= 0 && region.y >= 0 && region.width >= 0 && region.height >= 0,
+          "stripe region_px: expected 0 or more, got [",
+          region.x,
+          ", ",
+          region.y,
+          ", ",
+          region.width,
+          ", ",
+          region.height,
+          "]");
+}
+
+StripeProfile StripeProfile::none(std::size_t rows) {
+  StripeProfile profile;
+  profile.seen.assign(rows, 0);
+  profile.position.assign(rows, 0);
+  profile.sigma.assign(rows, 0);
+  profile.amplitude.assign(rows, 0);
+  profile.width.assign(rows, 0);
+  profile.saturated.assign(rows, 0);
+  return profile;
+}
+
+std::size_t StripeProfile::seen_count() const {
+  return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), std::uint8_t{1}));
+}
+
+StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const StripeOptions& options) {
+  options.check();
+  require(!frame.empty(), "expected a frame with pixels, got an empty one");
+  const StripeSignal signal(
+      frame, background, options.channel, options.direction == StripeDirection::kPerColumn);
+  const std::unique_ptr<RowDetector> detector = make_detector(options);
+  const SearchArea area = search_area(signal, options);
+
+  StripeProfile profile = StripeProfile::none(static_cast<std::size_t>(signal.rows()));
+  profile.noise = estimate_noise(signal);
+  Candidates candidates(profile.size());
+  for (int r = area.first; r < area.last; ++r) {
+    auto found = detector->find(signal, r, area.begin, area.end);
+    if (found && stands_out(*found, profile.noise, options)) {
+      candidates[static_cast<std::size_t>(r)] = found;
+    }
+  }
+  const float gain = signal_noise_gain(candidates, profile.noise);
+  for (std::size_t r = 0; r < candidates.size(); ++r) {
+    if (candidates[r]) store(*candidates[r], gain, r, profile);
+  }
+  return profile;
+}
+
+DetectorKind detector_from_name(const std::string& name) {
+  std::string all;
+  for (const DetectorRow& row : kDetectors) {
+    if (name == row.name) return row.kind;
+    all += std::string(all.empty() ? "" : ", ") + row.name;
+  }
+  fail("expected a stripe detector (", all, "), got '", name, "'");
+}
+
+std::string to_string(DetectorKind kind) {
+  for (const DetectorRow& row : kDetectors) {
+    if (row.kind == kind) return row.name;
+  }
+  return "fir";
+}
+
+}  // namespace facula
