@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include <flann/algorithms/dist.h>
 #include <flann/algorithms/kdtree_single_index.h>
 
 namespace facula {

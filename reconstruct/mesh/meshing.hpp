@@ -28,10 +28,12 @@ struct GridMeshOptions {
   void check() const;
 };
 
-/// Two triangles for every four neighbouring valid cells, none across depth edges.
+/// Two triangles for every four neighbouring cells (one where a cell is not valid), none with an
+/// edge longer than the options allow, so none across depth edges; turned towards the sensor.
 TriangleMesh mesh_grid(const PolarScan& scan, const GridMeshOptions& options = {});
 
-/// Distance from every point to the nearest point of the mesh's surface [m].
+/// Distance from every point to the nearest point of the mesh's surface [m]; NaN for points that are
+/// not finite. Throws Error when the mesh has no surface.
 std::vector<double> distances_to_mesh(const std::vector<Eigen::Vector3f>& points,
                                       const TriangleMesh& mesh);
 
