@@ -15,6 +15,7 @@ struct NavigationGridOptions {
   double min_height = 0.1;  ///< lowest part of space that blocks the robot, world z [m]
   double max_height = 1.5;  ///< highest part [m]
 
+  /// Throws Error unless max_height is above min_height.
   void check() const;
 };
 
@@ -33,13 +34,16 @@ struct NavigationGrid {
 };
 
 /// A column of cells is occupied where any cell between the heights is, free where one is free and
-/// none occupied, else unknown.
+/// none occupied, else unknown. The grid covers the cells known between the heights. Throws Error
+/// when there are none.
 NavigationGrid navigation_grid(const OccupancyMap& map, const NavigationGridOptions& options = {});
 
-/// Writes STEM.pgm and STEM.yaml (free_thresh 0.196, occupied_thresh 0.65, full-precision origin).
+/// Writes STEM.yaml and, beside it, STEM.pgm (free_thresh 0.196, occupied_thresh 0.65,
+/// full-precision origin).
 void write_navigation_grid(const std::filesystem::path& yaml_path, const NavigationGrid& grid);
 
-/// Reads them back.
+/// Reads such a pair, also one of the ROS map savers (mode trinary). Throws Error when either file
+/// is missing or torn.
 NavigationGrid read_navigation_grid(const std::filesystem::path& yaml_path);
 
 }  // namespace facula

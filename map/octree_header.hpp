@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace facula {
+
+/// The text in front of the nodes of an OctoMap file.
+struct OctreeHeader {
+  bool binary = false;         ///< .bt: two bits per child; else .ot: float and child mask per node
+  std::size_t nodes = 0;       ///< as the header counts them [1]
+  double resolution = 0;       ///< edge of a cell [m]
+  std::size_t data_begin = 0;  ///< where the nodes start in the file [bytes]
+};
+
+/// Reads the header at the start of `file`. `name` is the file's name for messages. Throws Error
+/// when it is not an OctoMap file, is one of the kinds this program does not read (coloured,
+/// stamped), or lacks an entry.
+OctreeHeader parse_octree_header(std::string_view file, const std::string& name);
+
+/// Walks over the nodes and throws Error unless they fill the file exactly, are as many as the
+/// header says, at most 16 levels deep, and hold finite values.
+void check_octree_nodes(const OctreeHeader& header, std::string_view file, const std::string& name);
+
+}  // namespace facula
