@@ -1,1 +1,184 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/atomic_file.hpp>
+#include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/nearest_name.hpp>
+#include <facula/acquire/core/text_numbers.hpp>
+#include <facula/acquire/core/whole_file.hpp>
+#include <facula/reconstruct/register/compressed_file.hpp>
+#include <facula/reconstruct/register/scan_project_formats.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <toml++/toml.h>
+
+namespace facula {
+namespace {
+
+namespace fs = std::filesystem;
+
+void require_known_keys(const toml::table& table,
+                        const std::vector<std::string>& known,
+                        const std::string& where) {
+  for (const auto& [key, value] : table) {
+    const std::string name(key.str());
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string near = nearest_name(name, known);
+    fail(where,
+         ": unknown key '",
+         name,
+         "'",
+         near.empty() ? std::string() : "; did you mean '" + near + "'?");
+  }
+}
+
+std::string name_of(const fs::path& path) {
+  return std::string("'").append(path.string()).append("'");
+}
+
+toml::table parse(const fs::path& path) {
+  const std::string text = read_whole_file(path);
+  try {
+    return toml::parse(text, path.string());
+  } catch (const toml::parse_error& problem) {
+    fail("'",
+         path.string(),
+         "', line ",
+         problem.source().begin.line,
+         ", column ",
+         problem.source().begin.column,
+         ": ",
+         problem.description());
+  }
+}
+
+/// The numbers of an array; nothing when the key is absent.
+template <std::size_t N>
+std::optional<std::array<double, N>> numbers_if(const toml::table& table,
+                                                const char* key,
+                                                const std::string& where) {
+  const toml::node* node = table.get(key);
+  if (node == nullptr) return {};
+  const toml::array* list = node->as_array();
+  require(list != nullptr && list->size() == N,
+          where,
+          ": ",
+          key,
+          " should be a list of ",
+          N,
+          " numbers");
+  std::array<double, N> numbers{};
+  for (std::size_t i = 0; i < N; ++i) {
+    const auto number = (*list)[i].template value<double>();
+    require(number && std::isfinite(*number), where, ": ", key, " holds a value that is no number");
+    numbers[i] = *number;
+  }
+  return numbers;
+}
+
+RigidTransform pose_of_scan(const toml::table& table, const std::string& where) {
+  RigidTransform pose;
+  if (const auto t = numbers_if<3>(table, "translation_mm", where)) {
+    pose.translation = Eigen::Vector3d((*t)[0], (*t)[1], (*t)[2]) / 1000;
+  }
+  if (const auto q = numbers_if<4>(table, "quaternion_xyzw", where)) {
+    pose.rotation = Eigen::Quaterniond((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
+    require(std::abs(pose.rotation.norm() - 1) < 1e-2,
+            where,
+            ": quaternion_xyzw has length ",
+            pose.rotation.norm(),
+            " where 1 was expected");
+    pose.rotation.normalize();
+  }
+  return pose;
+}
+
+PosedCloud read_scan_entry(const toml::table& table, const fs::path& path, std::size_t number) {
+  const std::string where = name_of(path) + ", scan " + std::to_string(number);
+  require_known_keys(table, {"name", "file", "translation_mm", "quaternion_xyzw"}, where);
+  const auto file = table["file"].value<std::string>();
+  require(file && !file->empty(), where, ": missing the key file, the name of the scan's file");
+  PosedCloud scan = read_scan_file(packed_or_plain(path.parent_path() / *file));
+  scan.name = table["name"].value_or(scan.name);
+  // Where poses.toml gives a pose, it wins over the VIEWPOINT of the scan's own file.
+  if (table.contains("translation_mm") || table.contains("quaternion_xyzw")) {
+    scan.world_from_scan = pose_of_scan(table, where);
+  }
+  return scan;
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    constexpr char kHex[] = "0123456789abcdef";
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) {
+      result += std::string("\\u00") + kHex[byte >> 4] + kHex[byte & 15];
+    } else {
+      if (c == '"' || c == '\\') result += '\\';
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+/// A TOML float needs a point or an exponent.
+std::string toml_number(double value) {
+  const std::string text = number_text(value);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+template <typename Vector>
+std::string toml_list(const Vector& values) {
+  std::string list = "[";
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (i > 0) list += ", ";
+    list += toml_number(values[i]);
+  }
+  return list + "]";
+}
+
+/// `file` as seen from `folder` where that is possible.
+std::string relative_name(const fs::path& file, const fs::path& folder) {
+  const fs::path base = folder.empty() ? fs::path(".") : folder;
+  const fs::path relative = fs::absolute(file).lexically_normal().lexically_relative(
+      fs::absolute(base).lexically_normal());
+  return relative.empty() ? fs::absolute(file).generic_string() : relative.generic_string();
+}
+
+}  // namespace
+
+ScanProject read_poses_file(const fs::path& path) {
+  const toml::table file = parse(path);
+  require_known_keys(file, {"scan"}, name_of(path));
+  const toml::array* entries = file["scan"].as_array();
+  require(entries != nullptr && !entries->empty() && entries->is_homogeneous<toml::table>(),
+          "'",
+          path.string(),
+          "' names no scan: write a [[scan]] table with file, translation_mm, quaternion_xyzw for "
+          "every scan");
+  ScanProject project;
+  for (const toml::node& entry : *entries) {
+    project.scans.push_back(read_scan_entry(*entry.as_table(), path, project.scans.size() + 1));
+  }
+  return project;
+}
+
+void write_poses(const fs::path& path, const ScanProject& project) {
+  AtomicFile file(path);
+  file.stream() << "# x_in_world = R(quaternion) x_in_scan + translation\n";
+  for (const PosedCloud& scan : project.scans) {
+    const RigidTransform& pose = scan.world_from_scan;
+    file.stream() << "\n[[scan]]\nname = " << quoted(scan.name)
+                  << "\nfile = " << quoted(relative_name(scan.file, path.parent_path()))
+                  << "\ntranslation_mm = " << toml_list(Eigen::Vector3d(pose.translation * 1000))
+                  << "\nquaternion_xyzw = " << toml_list(pose.rotation.coeffs()) << '\n';
+  }
+  file.commit();
+}
+
+}  // namespace facula

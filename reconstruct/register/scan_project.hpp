@@ -27,7 +27,8 @@ struct ScanProject {
 };
 
 /// Reads posed scans:
-///   poses.toml           [[scan]] tables with name, file, translation_mm, quaternion_xyzw
+///   poses.toml           [[scan]] tables with name, file, translation_mm, quaternion_xyzw (a pose
+///                        here wins over the VIEWPOINT of the scan's own file); or its folder
 ///   *.conf               Stanford range scans (`bmesh FILE tx ty tz qx qy qz qw`; x_in_world =
 ///                        R(conj(q)) x + t; the `camera` line is not a sensor origin)
 ///   a folder of 3DTK     scanNNN.3d + scanNNN.pose: centimetres, left-handed, Euler angles; ranges
