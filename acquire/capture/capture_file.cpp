@@ -92,6 +92,7 @@ StripeOptions read_stripe(TomlTable table, StripeDirection direction) {
   options.min_snr = table.number_if("min_snr").value_or(options.min_snr);
   options.min_amplitude = table.number_if("min_amplitude").value_or(options.min_amplitude);
   options.max_width_ratio = table.number_if("max_width_ratio").value_or(options.max_width_ratio);
+  options.min_run = table.integer_if("min_run").value_or(options.min_run);
   options.region = read_region(table);
   table.finish();
   options.check();

@@ -63,6 +63,15 @@ float filtered(const std::vector<float>& kernel, const float* row, int c, int co
   return sum;
 }
 
+/// Standard deviation of most of the values: a stripe in a few columns does not move it. What else
+/// is in the row does: grain, compression, texture.
+float robust_scale(std::vector<float>& values) {
+  for (float& v : values) v = std::abs(v);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle * 1.4826F;
+}
+
 class FirZeroCrossing : public RowDetector {
  public:
   explicit FirZeroCrossing(double sigma)
@@ -75,27 +84,19 @@ class FirZeroCrossing : public RowDetector {
     if (end - begin < 3) return std::nullopt;
     const float* row = signal.row(r);
     const int cols = signal.cols();
-    const int peak = strongest_line(row, begin, end, cols);
+    std::vector<float> bends;
+    for (int c = begin; c < end; ++c) bends.push_back(filtered(kernels_.curvature, row, c, cols));
+    // The middle of the row's most line-like place is where the smoothed row bends most.
+    const int peak =
+        begin + static_cast<int>(std::max_element(bends.begin(), bends.end()) - bends.begin());
     const std::optional<float> position = zero_crossing(row, peak, begin, end, cols);
     if (!position) return std::nullopt;
-    return describe(signal, r, *position);
+    auto found = describe(signal, r, *position);
+    if (found) found->row_noise = robust_scale(bends) / kernels_.curvature_norm;
+    return found;
   }
 
  private:
-  /// Where the smoothed row bends most, which is the middle of its most line-like place.
-  int strongest_line(const float* row, int begin, int end, int cols) const {
-    int best = begin;
-    float best_bend = -1;
-    for (int c = begin; c < end; ++c) {
-      const float bend = filtered(kernels_.curvature, row, c, cols);
-      if (bend > best_bend) {
-        best_bend = bend;
-        best = c;
-      }
-    }
-    return best;
-  }
-
   /// The downward zero of the smoothed derivative nearest to `peak`, linear between two pixels.
   std::optional<float> zero_crossing(
       const float* row, int peak, int begin, int end, int cols) const {

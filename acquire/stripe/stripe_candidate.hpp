@@ -14,6 +14,7 @@ struct StripeCandidate {
   float amplitude = 0;        ///< height over the surroundings [DN]
   float background = 0;       ///< level of the surroundings [DN]
   float width = 0;            ///< standard deviation of the profile [px]
+  float row_noise = 0;        ///< of this row, as the detector's filter sees it [DN]
   float snr_per_noise = 0;    ///< response over its standard deviation for noise of 1 DN [1/DN]
   float sigma_per_noise = 0;  ///< standard deviation of position for noise of 1 DN [px/DN]
   float residual = 0;         ///< mean square left by the fitted profile [DN^2]

@@ -63,9 +63,33 @@ SearchArea search_area(const StripeSignal& signal, const StripeOptions& options)
 using Candidates = std::vector<std::optional<StripeCandidate>>;
 
 bool stands_out(const StripeCandidate& found, float noise, const StripeOptions& options) {
-  return static_cast<double>(found.snr_per_noise) >= options.min_snr * noise &&
+  const double row_noise = static_cast<double>(std::max(noise, found.row_noise));
+  return static_cast<double>(found.snr_per_noise) >= options.min_snr * row_noise &&
          static_cast<double>(found.amplitude) >= options.min_amplitude &&
          static_cast<double>(found.width) <= options.max_width_ratio * options.sigma;
+}
+
+/// Clears candidates that do not hang together with their neighbours over options.min_run rows: a
+/// line goes on from row to row, grain and sparks do not. A run may skip up to two rows.
+void drop_short_runs(Candidates& candidates, const StripeOptions& options) {
+  const double max_step = 4 * options.sigma + 2;
+  std::vector<std::size_t> run;
+  const auto end_run = [&] {
+    if (run.size() < static_cast<std::size_t>(options.min_run)) {
+      for (const std::size_t r : run) candidates[r].reset();
+    }
+    run.clear();
+  };
+  for (std::size_t r = 0; r < candidates.size(); ++r) {
+    if (!candidates[r]) continue;
+    const bool goes_on =
+        !run.empty() && r - run.back() <= 3 &&
+        std::abs(static_cast<double>(candidates[r]->position - candidates[run.back()]->position)) <=
+            max_step * static_cast<double>(r - run.back());
+    if (!goes_on) end_run();
+    run.push_back(r);
+  }
+  end_run();
 }
 
 /// How the variance grows with the signal (photon noise, speckle): the median over the stripes of
@@ -84,7 +108,8 @@ float signal_noise_gain(const Candidates& candidates, float noise) {
 }
 
 void store(const StripeCandidate& found, float gain, std::size_t r, StripeProfile& profile) {
-  const float variance = profile.noise * profile.noise + gain * found.amplitude;
+  const float noise = std::max(profile.noise, found.row_noise);
+  const float variance = noise * noise + gain * found.amplitude;
   profile.seen[r] = 1;
   profile.position[r] = found.position;
   profile.sigma[r] = found.sigma_per_noise * std::sqrt(variance);
@@ -102,6 +127,7 @@ void StripeOptions::check() const {
           "stripe min_amplitude: expected 0 to 255, got ",
           min_amplitude);
   require(max_width_ratio > 1, "stripe max_width_ratio: expected above 1, got ", max_width_ratio);
+  require(min_run >= 1, "stripe min_run: expected 1 or more, got ", min_run);
   require(region.x >= 0 && region.y >= 0 && region.width >= 0 && region.height >= 0,
           "stripe region_px: expected 0 or more, got [",
           region.x,
@@ -146,6 +172,7 @@ StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const Strip
       candidates[static_cast<std::size_t>(r)] = found;
     }
   }
+  drop_short_runs(candidates, options);
   const float gain = signal_noise_gain(candidates, profile.noise);
   for (std::size_t r = 0; r < candidates.size(); ++r) {
     if (candidates[r]) store(*candidates[r], gain, r, profile);
