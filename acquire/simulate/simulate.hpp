@@ -13,33 +13,46 @@
 
 namespace facula {
 
-/// The light and the sensor of the simulated head.
+/// The light and the sensor of the simulated head. The defaults suit a pan head in a room; see
+/// options_for().
 struct SimulateOptions {
+  std::size_t laser = 0;  ///< index of the sheet that is lit [1]
   /// Where the laser's fan of light starts, camera frame [m]; it is moved onto the laser plane.
   Eigen::Vector3d laser_origin = Eigen::Vector3d(0.25, 0, 0);
-  double line_half_width = 0.0006;  ///< of the sheet at the laser, 1 standard deviation [m]
-  double line_divergence = 0.0008;  ///< growth of the half width with distance [rad]
-  double laser_peak = 160;          ///< signal of a white wall square to the light 1 m away [DN]
-  double exposure_falloff =
-      1;                    ///< power of (1 m / distance to the laser) that the light follows [1]
-  double ambient = 6;       ///< signal of a white surface in ambient light [DN]
-  double read_noise = 1.5;  ///< 1 standard deviation [DN]
-  double shot_noise = 0.1;  ///< variance per DN of signal [DN]
-  double black_level = 4;   ///< [DN]
-  double axis_noise = 0;    ///< position error of the axis, 1 standard deviation [rad or m]
+  double line_half_width = 0.0008;  ///< of the sheet at the laser, 1 standard deviation [m]
+  double line_divergence = 0.0025;  ///< growth of the half width with distance [rad]
+  double laser_peak = 170;          ///< signal of a white wall square to the light 1 m away [DN]
+  /// Power of (1 m / distance to the laser) that the light follows beside the widening of the
+  /// sheet: 1 for a fan and a linear sensor, 0 for a head that evens it out by its exposure [1].
+  double exposure_falloff = 0;
+  double ambient = 6;              ///< signal of a white surface in ambient light [DN]
+  double read_noise = 1.5;         ///< 1 standard deviation [DN]
+  double shot_noise = 0.1;         ///< variance per DN of signal [DN]
+  double black_level = 4;          ///< [DN]
+  double axis_noise = 0;           ///< position error of the axis, 1 standard deviation [rad or m]
   bool background_frames = false;  ///< also deliver the frame with the laser off
   std::uint64_t seed = 1;          ///< [1]
   int num_threads = 0;             ///< 0 = all cores [1]
   Progress progress;               ///< called per frame; may be empty
 
+  /// Throws Error naming the field, its value and its bound.
   void check() const;
 };
+
+/// Options that suit a rig. The working distance is where the sheet crosses the camera's axis (four
+/// baselines where it does not); there the line is 2 px wide (1 standard deviation) and a white
+/// wall gives 170 DN. The laser stands beside the camera, in the camera frame's plane z = 0. Far
+/// away the line narrows to 1.5 px. On a turntable the light falls off with distance as a fan does;
+/// other heads see from near to far and even it out (exposure_falloff 0).
+SimulateOptions options_for(const Rig& rig);
 
 /// One frame as the camera would deliver it, 8-bit grey: per pixel, rays over the pixel's area meet
 /// the scene; each adds ambient light and, where the laser sees the point, the sheet's Gaussian
 /// irradiance; then shot and read noise, black level, 8-bit quantisation. `frame` numbers the
-/// noise. `world_from_scan` places the head; for a turntable the scene's objects turn with the
-/// table.
+/// noise. On a turntable the scene's objects turn with the table: there the camera's pose in the
+/// turning scan frame is given, world_from_scan * Axis::scan_from_camera_at(position), and the
+/// scene stays. Ambient light is the same from all sides, so this shows the same image. A scene
+/// that holds things beside the table will see them turn as well.
 Image8 simulate_frame(const Scene& scene,
                       const Rig& rig,
                       const RigidTransform& world_from_camera,
@@ -49,7 +62,8 @@ Image8 simulate_frame(const Scene& scene,
 
 /// The truth, from the scene and not from the image: per image row and position the point where the
 /// middle of the sheet lights a surface that the camera sees in the middle of that row (the
-/// brightest where there are several), in the scan frame. sigma is 0, intensity the irradiance.
+/// brightest where there are several), in the scan frame. Rows are image columns where the stripe
+/// runs per column. sigma is 0; intensity is the signal there over 255, at most 1.
 PolarScan true_scan(const Scene& scene,
                     const Rig& rig,
                     const RigidTransform& world_from_scan,
@@ -62,8 +76,10 @@ struct SimulatedRun {
   std::vector<double> positions;   ///< axis programme [rad or m]
 };
 
-/// Writes a capture: capture.toml, rig.toml, frames/NNNN.png (and background/NNNN.png), truth.pcd.
-/// read_capture() reads it back. Frames do not depend on the number of threads.
+/// Writes a capture: capture.toml, rig.toml, positions.csv, frames/NNNN.png (and
+/// background/NNNN.png), truth.pcd. read_capture() reads it back. Frames do not depend on the
+/// number of threads. positions.csv holds the programme; with axis_noise the frames and the truth
+/// stand where the axis went instead.
 void simulate_capture(const std::filesystem::path& folder,
                       const Scene& scene,
                       const Rig& rig,
