@@ -50,7 +50,7 @@ std::string bytes_of(const std::filesystem::path& path) {
 std::string silent_error(const std::filesystem::path& path) {
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();
-  const std::string sentence = error_of([&] { OccupancyMap::read(path); });
+  std::string sentence = error_of([&] { OccupancyMap::read(path); });
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   return sentence;
