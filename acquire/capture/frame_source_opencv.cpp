@@ -12,6 +12,7 @@
 #include <iterator>
 #include <mutex>
 
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
@@ -63,6 +64,18 @@ class ImageFiles : public FrameSource {
   std::vector<std::filesystem::path> files_;
 };
 
+/// OpenCV prints what each of its video libraries thinks of a file; a library does not print.
+class QuietOpenCv {
+ public:
+  QuietOpenCv() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
+  ~QuietOpenCv() { cv::utils::logging::setLogLevel(before_); }
+  QuietOpenCv(const QuietOpenCv&) = delete;
+  QuietOpenCv& operator=(const QuietOpenCv&) = delete;
+
+ private:
+  cv::utils::logging::LogLevel before_;
+};
+
 /// Decodes in order; keeps the last frames, since threads ask for neighbours in any order.
 class VideoFile : public FrameSource {
  public:
@@ -84,6 +97,7 @@ class VideoFile : public FrameSource {
 
  private:
   void open() const {
+    const QuietOpenCv quiet;
     require(video_.open(path_.string()), "'", path_.string(), "' cannot be opened as a video");
     next_ = 0;
     kept_.clear();

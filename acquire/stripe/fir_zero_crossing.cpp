@@ -63,13 +63,17 @@ float filtered(const std::vector<float>& kernel, const float* row, int c, int co
   return sum;
 }
 
-/// Standard deviation of most of the values: a stripe in a few columns does not move it. What else
-/// is in the row does: grain, compression, texture.
-float robust_scale(std::vector<float>& values) {
-  for (float& v : values) v = std::abs(v);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle * 1.4826F;
+/// Standard deviation of most of the values, those within `reach` of `middle` left out: what else
+/// is in the row beside the stripe: grain, compression, texture.
+float robust_scale(const std::vector<float>& values, std::size_t middle, std::size_t reach) {
+  std::vector<float> sizes;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i + reach < middle || i > middle + reach) sizes.push_back(std::abs(values[i]));
+  }
+  if (sizes.size() < 16) return 0;
+  const auto half = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), half, sizes.end());
+  return *half * 1.4826F;
 }
 
 class FirZeroCrossing : public RowDetector {
@@ -92,7 +96,11 @@ class FirZeroCrossing : public RowDetector {
     const std::optional<float> position = zero_crossing(row, peak, begin, end, cols);
     if (!position) return std::nullopt;
     auto found = describe(signal, r, *position);
-    if (found) found->row_noise = robust_scale(bends) / kernels_.curvature_norm;
+    if (found) {
+      const std::size_t middle = static_cast<std::size_t>(peak - begin);
+      const std::size_t reach = static_cast<std::size_t>(2 * kernels_.radius);
+      found->row_noise = robust_scale(bends, middle, reach) / kernels_.curvature_norm;
+    }
     return found;
   }
 
@@ -154,18 +162,33 @@ class FirZeroCrossing : public RowDetector {
     return count > 0 ? sum / static_cast<float>(count) : 0;
   }
 
-  /// Mean square difference to the Gaussian profile over +-2 widths, three parameters taken off.
+  /// Mean square that a Gaussian of the found position and width leaves over +-3 widths, its height
+  /// and level fitted by least squares; four parameters taken off.
   static float misfit(const float* row, int cols, const StripeCandidate& found) {
     const float width = std::max(0.5F, found.width);
-    const int first = std::max(0, static_cast<int>(std::ceil(found.position - 2 * width)));
-    const int last = std::min(cols - 1, static_cast<int>(std::floor(found.position + 2 * width)));
-    float sum = 0;
+    const int first = std::max(0, static_cast<int>(std::ceil(found.position - 3 * width)));
+    const int last = std::min(cols - 1, static_cast<int>(std::floor(found.position + 3 * width)));
+    const int count = last - first + 1;
+    if (count <= 4) return 0;
+    double g1 = 0;
+    double g2 = 0;
+    double s1 = 0;
+    double s2 = 0;
+    double gs = 0;
     for (int c = first; c <= last; ++c) {
-      const float z = (static_cast<float>(c) - found.position) / width;
-      const float model = found.background + found.amplitude * std::exp(-0.5F * z * z);
-      sum += (row[c] - model) * (row[c] - model);
+      const double z = static_cast<double>((static_cast<float>(c) - found.position) / width);
+      const double g = std::exp(-0.5 * z * z);
+      const double s = static_cast<double>(row[c]);
+      g1 += g;
+      g2 += g * g;
+      s1 += s;
+      s2 += s * s;
+      gs += g * s;
     }
-    return sum / static_cast<float>(std::max(1, last - first + 1 - 3));
+    const double spread = g2 - g1 * g1 / count;
+    const double covariance = gs - g1 * s1 / count;
+    const double left = s2 - s1 * s1 / count - covariance * covariance / spread;
+    return static_cast<float>(std::max(0.0, left) / (count - 4));
   }
 
   float sigma_;

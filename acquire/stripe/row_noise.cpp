@@ -9,6 +9,7 @@ namespace facula {
 namespace {
 
 constexpr float kQuantisation = 0.2886751F;  // 1 / sqrt(12)
+constexpr int kStripeReach = 10;             // a stripe's own rows beside its brightest pixel [px]
 
 float median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -27,9 +28,12 @@ float estimate_noise(const StripeSignal& signal) {
     differences.clear();
     // Whole numbers make the median of |differences| step by whole numbers; their upper quantile
     // steps as well, so the mean of the lower three quarters is taken instead.
+    const int brightest = static_cast<int>(std::max_element(s, s + signal.cols()) - s);
     for (int c = 1; c + 1 < signal.cols(); ++c) {
+      if (std::abs(c - brightest) <= kStripeReach) continue;
       differences.push_back(std::abs(2 * s[c] - s[c - 1] - s[c + 1]));
     }
+    if (differences.size() < 4) continue;
     const std::size_t kept = differences.size() * 3 / 4;
     std::nth_element(differences.begin(),
                      differences.begin() + static_cast<std::ptrdiff_t>(kept),
@@ -39,6 +43,7 @@ float estimate_noise(const StripeSignal& signal) {
     // E|x| below its 75 % quantile is 0.5148 sigma for a normal x, whose sigma is sqrt(6) noise.
     per_row.push_back(static_cast<float>(sum / static_cast<double>(kept)) / (0.5148F * 2.4494897F));
   }
+  if (per_row.empty()) return kQuantisation;
   return std::max(kQuantisation, median(per_row));
 }
 

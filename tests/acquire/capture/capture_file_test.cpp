@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/capture/axis_positions.hpp>
+#include <facula/acquire/capture/capture_file.hpp>
+#include <facula/acquire/capture/frame_list.hpp>
+#include <facula/acquire/capture/frame_source.hpp>
+#include <facula/acquire/triangulate/extract_scan.hpp>
+#include <facula/tests/acquire/stripe/line_image.hpp>
+#include <facula/tests/support/matchers.hpp>
+#include <facula/tests/support/temporary_folder.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace facula {
+namespace {
+
+/// A capture of small frames with an upright line in each, in a folder of its own.
+class CaptureFile : public testing::Test {
+ protected:
+  CaptureFile() {
+    folder_.write("rig.toml", R"([camera]
+width_px = 64
+height_px = 48
+fx_px = 60
+fy_px = 60
+cx_px = 31.5
+cy_px = 23.5
+[[laser]]
+normal = [1, 0, 0]
+distance_mm = 50
+[axis]
+kind = "pan"
+)");
+    write_capture("on = \"lit*.png\"", "step_deg = 2");
+    for (int i = 1; i <= 12; ++i) write_frame("lit" + std::to_string(i) + ".png", i);
+  }
+
+  void write_frame(const std::string& name, int shift) const {
+    LineImage line;
+    line.rows = 48;
+    line.cols = 64;
+    line.sigma = 1.5;
+    line.position = [shift](int) { return 40.0 + shift; };
+    write_image(folder_ / name, draw(line).view());
+  }
+
+  void write_capture(const std::string& frames, const std::string& positions) const {
+    folder_.write("capture.toml",
+                  "rig = \"rig.toml\"\n[frames]\n" + frames + "\n[positions]\n" + positions +
+                      "\n[stripe]\nsigma_px = 1.5\n");
+  }
+
+  std::string complaint() const {
+    return error_of([&] { extract_scan(read_capture(folder_.path())); });
+  }
+
+  bool complains_of(const std::string& words) const {
+    const std::string said = complaint();
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    return said.find(words) != std::string::npos;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CaptureFile, CountsFramesAsPeopleDo) {
+  const Capture capture = read_capture(folder_.path());
+  ASSERT_EQ(capture.frames.size(), 12U);
+  EXPECT_EQ(capture.frames[1].filename(), "lit2.png");
+  EXPECT_EQ(capture.frames[9].filename(), "lit10.png");
+  EXPECT_NEAR(capture.positions[11], 22 * std::numbers::pi / 180, 1e-12);
+}
+
+TEST_F(CaptureFile, ExtractsTheRangeOfEveryFrame) {
+  const ExtractResult result = extract_scan(read_capture(folder_.path()));
+  EXPECT_EQ(result.scan.valid_count(), 12U * 48U);
+  for (int col = 0; col < 12; ++col) {
+    // z = f s / x (source A, 1) and the baseline beside it, about the pan axis at the camera
+    // centre.
+    const double x = 40 + (col + 1) - 31.5;
+    const double z = 60 * 0.05 / x;
+    const double y = (20 - 23.5) / 60 * z;
+    const float range = result.scan.range[result.scan.index(20, col)];
+    EXPECT_NEAR(static_cast<double>(range), std::sqrt(0.05 * 0.05 + y * y + z * z), 0.004 * z);
+  }
+}
+
+TEST_F(CaptureFile, GivesTheSameScanForEveryNumberOfThreads) {
+  const Capture capture = read_capture(folder_.path());
+  const PolarScan one = extract_scan(capture, {.num_threads = 1}).scan;
+  const PolarScan many = extract_scan(capture, {.num_threads = 5}).scan;
+  EXPECT_EQ(one.range, many.range);
+  EXPECT_EQ(one.sigma, many.sigma);
+}
+
+TEST_F(CaptureFile, FindsFramesThatLieElsewhere) {
+  const TemporaryFolder elsewhere;
+  for (int i = 1; i <= 12; ++i) {
+    const std::string name = "lit" + std::to_string(i) + ".png";
+    std::filesystem::rename(folder_ / name, elsewhere / name);
+  }
+  EXPECT_TRUE(complains_of("--frames"));
+  EXPECT_EQ(read_capture(folder_.path(), elsewhere.path()).frames.size(), 12U);
+}
+
+TEST_F(CaptureFile, PairsAlternatingFrames) {
+  write_capture("on = \"lit*.png\"\nalternating = \"off-first\"", "step_deg = 2");
+  const Capture capture = read_capture(folder_.path());
+  EXPECT_EQ(capture.positions.size(), 6U);
+  const CaptureFrames frames(capture);
+  EXPECT_EQ(frames.lit(0).pixels, read_image(folder_ / "lit2.png").pixels);
+  EXPECT_EQ(frames.dark(2).pixels, read_image(folder_ / "lit5.png").pixels);
+}
+
+TEST_F(CaptureFile, ReadsPositionsFromCsv) {
+  std::string csv = "frame,position_deg\r\n";
+  for (int i = 0; i < 12; ++i) csv += std::to_string(i) + ", " + std::to_string(i * 5) + ".5\r\n";
+  folder_.write("angles.csv", csv);
+  write_capture("on = \"lit*.png\"", "csv = \"angles.csv\"");
+  EXPECT_NEAR(read_capture(folder_.path()).positions[3], 15.5 * std::numbers::pi / 180, 1e-12);
+  folder_.write("angles.csv", "position_deg\n1\nx\n");
+  EXPECT_TRUE(complains_of("angles.csv, line 3: expected a number, got 'x'"));
+  folder_.write("angles.csv", "position_mm\n1\n");
+  EXPECT_TRUE(complains_of("position_deg or position_rad"));
+}
+
+TEST_F(CaptureFile, SaysWhenCountsDiffer) {
+  folder_.write("angles.csv", "position_deg\n1\n2\n");
+  write_capture("on = \"lit*.png\"", "csv = \"angles.csv\"");
+  EXPECT_TRUE(complains_of("2 positions for 12 frames"));
+}
+
+TEST_F(CaptureFile, NamesAnUnknownKey) {
+  write_capture("on = \"lit*.png\"", "step_degg = 2");
+  EXPECT_TRUE(complains_of("'positions.step_deg': missing"));
+  write_capture("on = \"lit*.png\"\noof = \"x\"", "step_deg = 2");
+  EXPECT_TRUE(complains_of("'frames.oof': unknown key; did you mean 'off'?"));
+}
+
+TEST_F(CaptureFile, SaysWhichFrameIsMissingTornOrNoImage) {
+  std::filesystem::resize_file(folder_ / "lit3.png",
+                               std::filesystem::file_size(folder_ / "lit3.png") / 2);
+  EXPECT_TRUE(complains_of("lit3.png' is cut short"));
+  folder_.write("lit3.png", "this is no image");
+  EXPECT_TRUE(complains_of("lit3.png' is not an image"));
+  folder_.write("lit3.png", "");
+  EXPECT_TRUE(complains_of("lit3.png' is an empty file"));
+  write_image(folder_ / "lit3.png", Image8(10, 20).view());
+  EXPECT_TRUE(complains_of("frame 2: expected 64 x 48 px"));
+  write_capture("on = \"nothing*.png\"", "step_deg = 2");
+  EXPECT_TRUE(complains_of("matches 'nothing*.png'"));
+}
+
+TEST_F(CaptureFile, SaysWhenARevoluteAxisHasNoPositions) {
+  folder_.write("capture.toml", "rig = \"rig.toml\"\n[frames]\non = \"lit*.png\"\n");
+  EXPECT_TRUE(complains_of("needs a table [positions]"));
+}
+
+TEST_F(CaptureFile, RoundTripsAxisPositions) {
+  const std::vector<double> positions = {0, 0.1, -2.0 / 3};
+  write_axis_positions(folder_ / "p.csv", positions, AxisKind::kPan);
+  EXPECT_EQ(read_axis_positions(folder_ / "p.csv", AxisKind::kPan), positions);
+  write_axis_positions(folder_ / "p.csv", positions, AxisKind::kLinear);
+  const auto again = read_axis_positions(folder_ / "p.csv", AxisKind::kLinear);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(again[i], positions[i], 1e-15);
+}
+
+}  // namespace
+}  // namespace facula
