@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surfaces.hpp"
+
+#include <facula/acquire/core/cloud_file.hpp>
+#include <facula/reconstruct/filter/normals.hpp>
+#include <facula/reconstruct/measure/plane.hpp>
+#include <facula/tests/support/matchers.hpp>
+#include <facula/tests/support/real_data.hpp>
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace facula {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+
+/// The plane whose normal is nearest to `normal` (either way) at `distance` along it.
+const ExtractedPlane* find_plane(const std::vector<ExtractedPlane>& planes,
+                                 const Plane& wanted,
+                                 double max_angle,
+                                 double max_distance) {
+  for (const ExtractedPlane& plane : planes) {
+    if (angle_between(plane.fit.plane, wanted) < max_angle &&
+        std::abs(wanted.signed_distance(plane.fit.centroid)) < max_distance) {
+      return &plane;
+    }
+  }
+  return nullptr;
+}
+
+struct Room {
+  PointCloud cloud;
+  std::vector<Plane> truth;
+};
+
+/// A box of 4 x 3 x 2.5 m whose far wall stands 80 degrees to its neighbour.
+Room skewed_room(std::size_t points_per_square_metre, double sigma) {
+  const double lean = 3 * std::tan(10 * kDegree);
+  const Eigen::Vector3d x(4, 0, 0);
+  const Eigen::Vector3d y(0, 3, 0);
+  const Eigen::Vector3d z(0, 0, 2.5);
+  const Eigen::Vector3d o(-1, -1, -1);
+  const std::vector<Patch> patches = {{o, x, y},
+                                      {o + z, x, y},
+                                      {o, x, z},
+                                      {o + y, x, z},
+                                      {o, y, z},
+                                      {o + x, y + Eigen::Vector3d(lean, 0, 0), z}};
+  Room room;
+  Random random(9);
+  for (const Patch& patch : patches) {
+    const Eigen::Vector3d normal = patch.side_u.cross(patch.side_v);
+    const auto count = static_cast<std::size_t>(normal.norm() * double(points_per_square_metre));
+    add_patch(room.cloud, patch, count, sigma, random);
+    room.truth.push_back({normal.normalized(), normal.normalized().dot(patch.corner)});
+  }
+  return room;
+}
+
+TEST(ExtractPlanes, FindsTheSixWallsOfARoomAndTheirAngles) {
+  const Room room = skewed_room(1500, 0.002);
+  const auto planes = extract_planes(room.cloud);
+  EXPECT_EQ(planes.size(), 6U);
+  std::vector<const ExtractedPlane*> found;
+  for (const Plane& wall : room.truth) {
+    const ExtractedPlane* plane = find_plane(planes, wall, 0.1 * kDegree, 0.001);
+    ASSERT_NE(plane, nullptr) << wall.normal.transpose();
+    found.push_back(plane);
+  }
+  for (std::size_t a = 0; a < found.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      EXPECT_NEAR(angle_between(found[a]->fit.plane, found[b]->fit.plane),
+                  angle_between(room.truth[a], room.truth[b]),
+                  0.1 * kDegree);
+    }
+  }
+  EXPECT_NEAR(distance_between(found[0]->fit, found[1]->fit), 2.5, 0.0005);
+  for (std::size_t i = 1; i < planes.size(); ++i) {
+    EXPECT_GE(planes[i - 1].indices.size(), planes[i].indices.size());
+  }
+}
+
+TEST(ExtractPlanes, GivesNoPointToTwoPlanes) {
+  std::set<std::size_t> taken;
+  for (const auto& plane : extract_planes(skewed_room(500, 0.002).cloud)) {
+    for (const std::size_t i : plane.indices) EXPECT_TRUE(taken.insert(i).second);
+  }
+  EXPECT_GT(taken.size(), 20000U);
+}
+
+TEST(ExtractPlanes, SeparatesParallelStepsFiveMillimetresApart) {
+  PointCloud cloud;
+  Random random(12);
+  for (int step = 0; step < 4; ++step) {
+    const Eigen::Vector3d corner(0.03 * step, 0, 0.3 + 0.005 * step);
+    add_patch(cloud, {corner, {0.03, 0, 0}, {0, 0.1, 0}}, 4000, 0.0002, random);
+  }
+  const auto planes = extract_planes(cloud, {.inlier_distance = 0.001});
+  ASSERT_EQ(planes.size(), 4U);
+  std::vector<const PlaneFit*> fits;
+  for (const auto& plane : planes) fits.push_back(&plane.fit);
+  std::sort(fits.begin(), fits.end(), [](auto a, auto b) {
+    return a->centroid.z() < b->centroid.z();
+  });
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_LT(angle_between(fits[i]->plane, fits[i - 1]->plane), 0.1 * kDegree);
+    EXPECT_NEAR(distance_between(*fits[i], *fits[i - 1]), 0.005, 0.00005);
+  }
+}
+
+TEST(ExtractPlanes, KeepsOnlyTheLargestPieceOfCoplanarSurfaces) {
+  PointCloud cloud;
+  Random random(13);
+  add_patch(cloud, {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, 6000, 0.001, random);
+  add_patch(cloud, {{5, 0, 1}, {0.5, 0, 0}, {0, 1, 0}}, 3000, 0.001, random);
+  const auto planes = extract_planes(cloud);
+  ASSERT_EQ(planes.size(), 2U);
+  EXPECT_NEAR(planes[0].fit.extent, 1, 0.02);
+  EXPECT_EQ(planes[0].indices.size(), 6000U);
+  EXPECT_NEAR(planes[1].fit.width, 0.5, 0.02);
+  EXPECT_EQ(planes[1].indices.size(), 3000U);
+}
+
+TEST(ExtractPlanes, UsesNormalsToLeaveCrossingStripsAside) {
+  Room room = skewed_room(2000, 0.001);
+  room.cloud.sensor_origin.assign(room.cloud.size(), Eigen::Vector3f(0.5F, 0.5F, 0.2F));
+  estimate_normals(room.cloud);
+  const auto planes = extract_planes(room.cloud, {.inlier_distance = 0.05});
+  for (const auto& plane : planes) {
+    for (const std::size_t i : plane.indices) {
+      const double cosine = room.cloud.normals[i].cast<double>().dot(plane.fit.plane.normal);
+      EXPECT_GE(std::abs(cosine), std::cos(0.61));
+    }
+  }
+  for (const Plane& wall : room.truth) {
+    EXPECT_NE(find_plane(planes, wall, 0.05 * kDegree, 0.001), nullptr);
+  }
+}
+
+TEST(ExtractPlanes, RepeatsItselfWithTheSameSeed) {
+  const PointCloud cloud = skewed_room(400, 0.003).cloud;
+  const auto first = extract_planes(cloud, {.seed = 5});
+  const auto second = extract_planes(cloud, {.seed = 5});
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].indices, second[i].indices);
+}
+
+TEST(ExtractPlanes, FindsNothingInNothingOrInNoise) {
+  EXPECT_TRUE(extract_planes({}).empty());
+  PointCloud noise;
+  Random random(14);
+  for (int i = 0; i < 5000; ++i) {
+    noise.points.emplace_back(
+        float(random.normal()), float(random.normal()), float(random.normal()));
+  }
+  EXPECT_TRUE(extract_planes(noise).empty());
+  PointCloud spot;
+  spot.points.assign(2000, Eigen::Vector3f(1, 2, 3));
+  EXPECT_TRUE(extract_planes(spot).empty());
+}
+
+TEST(ExtractPlanes, RefusesOptionsOutOfRange) {
+  EXPECT_NE(error_of([] { extract_planes({}, {.inlier_distance = 0}); }), "");
+  EXPECT_NE(error_of([] { extract_planes({}, {.min_points = 2}); }), "");
+  EXPECT_NE(error_of([] { extract_planes({}, {.max_planes = 0}); }), "");
+  EXPECT_NE(error_of([] { extract_planes({}, {.max_normal_angle = 2}); }), "");
+}
+
+TEST(ExtractPlanesRealData, FindsThePublishedPlaneOfPclsOwnTest) {
+  FACULA_REQUIRE_REAL_DATA(file, "range/pcl-test/sac_plane_test.pcd");
+  // PCL's test expects a/d, b/d, c/d = -0.8964, -0.5868, -1.208 and counts points within 3 cm.
+  const Eigen::Vector3d ratio(-0.8964, -0.5868, -1.208);
+  const Plane published{-ratio.normalized(), 1 / ratio.norm()};
+  const auto planes = extract_planes(read_cloud(file), {.inlier_distance = 0.03});
+  ASSERT_FALSE(planes.empty());
+  EXPECT_LT(angle_between(planes[0].fit.plane, published), 0.5 * kDegree);
+  EXPECT_NEAR(planes[0].fit.plane.distance, published.distance, 0.01);
+}
+
+}  // namespace
+}  // namespace facula
