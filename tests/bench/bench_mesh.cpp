@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/reconstruct/filter/cloud_filters.hpp>
+#include <facula/reconstruct/mesh/meshing.hpp>
+#include <facula/tests/bench/bench_scene.hpp>
+
+#include <benchmark/benchmark.h>
+
+namespace facula {
+namespace {
+
+void report(benchmark::State& state, std::size_t points, std::size_t triangles) {
+  if (triangles == 0) state.SkipWithError("no triangle was made: the figure would mean nothing");
+  state.counters["points"] = static_cast<double>(points);
+  state.counters["triangles"] = static_cast<double>(triangles);
+}
+
+/// A room of one scan, thinned to the voxel given [mm].
+void mesh_front(benchmark::State& state) {
+  const PointCloud cloud =
+      thin_by_voxel(room_cloud(0), 0.001 * static_cast<double>(state.range(0)));
+  std::size_t triangles = 0;
+  for (auto _ : state) triangles = mesh_advancing_front(cloud).triangles.size();
+  report(state, cloud.size(), triangles);
+}
+
+/// One scan of 500 x 1000 cells.
+void mesh_cells(benchmark::State& state) {
+  const PolarScan scan = room_scan(0);
+  std::size_t triangles = 0;
+  for (auto _ : state) triangles = mesh_grid(scan).triangles.size();
+  report(state, scan.valid_count(), triangles);
+}
+
+BENCHMARK(mesh_front)
+    ->Arg(100)
+    ->Arg(50)
+    ->ArgName("mm")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(mesh_cells)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace facula
