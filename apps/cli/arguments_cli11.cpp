@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/nearest_name.hpp>
+#include <facula/apps/cli/arguments.hpp>
+#include <facula/apps/cli/usage_error.hpp>
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+
+namespace facula {
+namespace {
+
+std::vector<std::string> option_names(const Arguments& arguments) {
+  std::vector<std::string> names;
+  for (const ArgumentSpec& spec : arguments.specs()) {
+    if (!spec.positional()) names.push_back(spec.name);
+  }
+  return names;
+}
+
+/// Said before anything else, since a mistyped option also makes others look missing.
+void check_option_names(const Arguments& arguments, const std::vector<std::string>& words) {
+  const std::vector<std::string> known = option_names(arguments);
+  for (const std::string& word : words) {
+    if (!word.starts_with("--")) continue;
+    const std::string name = word.substr(0, word.find('='));
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string near = nearest_name(name, known);
+    fail_usage("expected one of its options, got '",
+               name,
+               "'; ",
+               near.empty() ? "see --help for all of them" : "did you mean '" + near + "'?");
+  }
+}
+
+/// One argument for CLI11; it splits the words, their meaning is ours.
+void declare(CLI::App& app, const ArgumentSpec& spec) {
+  if (spec.words == 0) {
+    app.add_flag_callback(spec.name, [&spec] { spec.set({}); });
+    return;
+  }
+  auto* option = app.add_option_function<std::vector<std::string>>(
+      spec.name, [&spec](const std::vector<std::string>& words) { spec.set(words); });
+  if (spec.repeatable && spec.positional()) {
+    option->expected(1, 1 << 20);
+  } else if (spec.repeatable) {
+    option->expected(1)->take_all()->allow_extra_args(false);
+  } else {
+    option->expected(spec.words)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  }
+  if (spec.required) option->required();
+}
+
+}  // namespace
+
+void parse_arguments(const Arguments& arguments, const std::vector<std::string>& words) {
+  check_option_names(arguments, words);
+  CLI::App app;
+  app.set_help_flag();
+  for (const ArgumentSpec& spec : arguments.specs()) declare(app, spec);
+  std::vector<std::string> reversed(words.rbegin(), words.rend());
+  try {
+    app.parse(reversed);
+  } catch (const CLI::RequiredError& error) {
+    fail_usage("expected ", error.what(), "; give it, or see --help");
+  } catch (const CLI::ExtrasError& error) {
+    fail_usage("got more than it takes: ", error.what(), "; see --help");
+  } catch (const CLI::Error& error) {
+    fail_usage(error.what(), "; see --help");
+  }
+}
+
+}  // namespace facula

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/apps/cli/help.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+namespace facula {
+namespace {
+
+constexpr std::size_t kLineWidth = 96;
+
+/// Words of `text`, wrapped, every line but the first behind `indent` blanks.
+std::string wrapped(const std::string& text, std::size_t indent) {
+  std::istringstream words(text);
+  std::string result;
+  std::size_t column = indent;
+  for (std::string word; words >> word;) {
+    if (column > indent && column + 1 + word.size() > kLineWidth) {
+      result += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (column > indent) {
+      result += " ";
+      ++column;
+    }
+    result += word;
+    column += word.size();
+  }
+  return result;
+}
+
+std::string left_side(const ArgumentSpec& spec) {
+  if (spec.positional()) return spec.repeatable ? spec.name + "..." : spec.name;
+  return spec.value_name.empty() ? spec.name : spec.name + " " + spec.value_name;
+}
+
+std::string right_side(const ArgumentSpec& spec) {
+  std::string text = spec.help;
+  if (!spec.default_text.empty()) text += " (default " + spec.default_text + ")";
+  if (spec.required && !spec.positional()) text += " (required)";
+  if (spec.repeatable && !spec.positional()) text += " (repeatable)";
+  return text;
+}
+
+std::string usage(const Command& command, const Arguments& arguments) {
+  std::string line = "facula " + command.name;
+  for (const ArgumentSpec& spec : arguments.specs()) {
+    if (!spec.positional() && !spec.required) continue;
+    line += " " + (spec.required ? left_side(spec) : "[" + left_side(spec) + "]");
+  }
+  return line + " [options]";
+}
+
+void write_arguments(std::ostream& out, const Arguments& arguments, bool positional) {
+  constexpr std::size_t kLeftWidth = 30;
+  for (const ArgumentSpec& spec : arguments.specs()) {
+    if (spec.positional() != positional) continue;
+    const std::string left = "  " + left_side(spec);
+    const bool fits = left.size() + 2 <= kLeftWidth;
+    out << left
+        << (fits ? std::string(kLeftWidth - left.size(), ' ') : "\n" + std::string(kLeftWidth, ' '))
+        << wrapped(right_side(spec), kLeftWidth) << '\n';
+  }
+}
+
+}  // namespace
+
+std::string program_help(const std::vector<Command>& commands) {
+  std::ostringstream out;
+  out << "facula turns the frames of a line-laser scanner into scans, planes, meshes and maps.\n\n"
+         "Usage: facula COMMAND [options]\n\nCommands:\n";
+  std::size_t width = 0;
+  for (const Command& command : commands) width = std::max(width, command.name.size());
+  for (const Command& command : commands) {
+    out << "  " << command.name << std::string(width + 2 - command.name.size(), ' ')
+        << command.summary << '\n';
+  }
+  out << "\n'facula COMMAND --help' explains one of them; 'facula --version' says which build this "
+         "is.\nStart with: facula demo\n";
+  return out.str();
+}
+
+std::string command_help(const Command& command, const Arguments& arguments) {
+  std::ostringstream out;
+  out << wrapped(command.description, 0) << "\n\nUsage: " << wrapped(usage(command, arguments), 4)
+      << "\n\n";
+  const auto& specs = arguments.specs();
+  if (std::any_of(specs.begin(), specs.end(), [](const auto& s) { return s.positional(); })) {
+    out << "Arguments:\n";
+    write_arguments(out, arguments, true);
+    out << '\n';
+  }
+  out << "Options:\n";
+  write_arguments(out, arguments, false);
+  out << "\nExamples (data/... are files that come with facula, found from every folder):\n";
+  for (const std::string& example : command.examples) out << "  " << example << '\n';
+  return out.str();
+}
+
+}  // namespace facula

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/atomic_file.hpp>
+#include <facula/acquire/core/nearest_name.hpp>
+#include <facula/acquire/core/version.hpp>
+#include <facula/apps/cli/help.hpp>
+#include <facula/apps/cli/log.hpp>
+#include <facula/apps/cli/output_path.hpp>
+#include <facula/apps/cli/program.hpp>
+#include <facula/apps/cli/usage_error.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <new>
+
+namespace facula {
+namespace {
+
+constexpr int kOk = 0;
+constexpr int kFailed = 1;
+constexpr int kWrongUsage = 2;
+constexpr int kMostThreads = 1024;
+
+/// What every command understands besides its own arguments.
+struct CommonArguments {
+  std::filesystem::path json;
+  int threads = 0;
+  bool verbose = false;
+  bool help = false;
+};
+
+void declare_common(Arguments& arguments, CommonArguments& common) {
+  arguments.output("--json",
+                   common.json,
+                   "write all figures to this file; - is standard output, then nothing else is "
+                   "written there");
+  arguments.whole("--threads", common.threads, "threads that work at once, 0 = all cores");
+  arguments.flag("--verbose", common.verbose, "log every step on standard error");
+  arguments.flag("--help", common.help, "show this and stop");
+}
+
+bool asks_for_help(const std::vector<std::string>& words) {
+  return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return word == "--help" || word == "-h";
+  });
+}
+
+void print(const std::string& text) {
+  std::cout << text << std::flush;
+  require(static_cast<bool>(std::cout),
+          "expected standard output to take the results, got a write error; is the disk full?");
+}
+
+void deliver(const Figures& figures, const std::filesystem::path& json) {
+  if (json == "-") {
+    print(figures.json());
+    return;
+  }
+  if (!json.empty()) {
+    AtomicFile file(json);
+    file.stream() << figures.json();
+    file.commit();
+  }
+  print(figures.text());
+}
+
+void run_command(const Command& command, const std::vector<std::string>& words) {
+  Arguments arguments;
+  CommonArguments common;
+  command.declare(arguments);
+  declare_common(arguments, common);
+  if (asks_for_help(words)) {
+    print(command_help(command, arguments));
+    return;
+  }
+  parse_arguments(arguments, words);
+  if (common.threads > kMostThreads) {
+    fail_usage(
+        "--threads: expected 0 to ", kMostThreads, ", got ", common.threads, "; 0 takes all cores");
+  }
+  if (!common.json.empty() && common.json != "-") check_output(common.json);
+  set_log_verbose(common.verbose);
+  Session session;
+  session.num_threads = common.threads;
+  command.run(session);
+  session.end_steps();
+  deliver(session.figures, common.json);
+}
+
+int complain(const std::string& who, const std::string& sentence, int code) {
+  // One sentence on one line, whatever a library put into it.
+  std::string line = sentence;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  while (line.ends_with(' ')) line.pop_back();
+  std::cerr << who << ": " << line << std::endl;
+  return code;
+}
+
+int guarded_run(const Command& command, const std::vector<std::string>& words) {
+  const std::string who = "facula " + command.name;
+  try {
+    run_command(command, words);
+    return kOk;
+  } catch (const UsageError& error) {
+    return complain(who, error.what(), kWrongUsage);
+  } catch (const std::bad_alloc&) {
+    return complain(who,
+                    "expected enough memory, got none left; take fewer points (a larger voxel or "
+                    "cell, fewer scans) or a larger machine",
+                    kFailed);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(who,
+                    "expected a usable path, got '" + error.path1().string() +
+                        "': " + error.code().message() + "; check the path and its permissions",
+                    kFailed);
+  } catch (const std::exception& error) {
+    return complain(who, error.what(), kFailed);
+  }
+}
+
+/// The command whose name the first words spell, and how many words that took.
+const Command* find_command(const std::vector<std::string>& words,
+                            const std::vector<Command>& commands,
+                            std::size_t& taken) {
+  for (taken = std::min<std::size_t>(2, words.size()); taken > 0; --taken) {
+    std::string name = words[0];
+    if (taken == 2) name += " " + words[1];
+    for (const Command& command : commands) {
+      if (command.name == name) return &command;
+    }
+  }
+  return nullptr;
+}
+
+int unknown_command(const std::vector<std::string>& words, const std::vector<Command>& commands) {
+  std::vector<std::string> names;
+  for (const Command& command : commands) {
+    if (command.name.starts_with(words[0] + " ")) {
+      return complain("facula " + words[0],
+                      "expected what to " + words[0] + ", got " +
+                          (words.size() > 1 ? "'" + words[1] + "'" : "nothing") +
+                          "; did you mean 'facula " + command.name + "'?",
+                      kWrongUsage);
+    }
+    names.push_back(command.name);
+  }
+  const std::string typed =
+      words.size() > 1 && !words[1].starts_with("-") ? words[0] + " " + words[1] : words[0];
+  std::string near = nearest_name(words[0], names);
+  if (near.empty()) near = nearest_name(typed, names);
+  return complain("facula",
+                  "expected a command, got '" + words[0] + "'; " +
+                      (near.empty() ? "'facula' alone lists them" : "did you mean '" + near + "'?"),
+                  kWrongUsage);
+}
+
+}  // namespace
+
+int run_program(const std::vector<std::string>& words, const std::vector<Command>& commands) {
+  try {
+    if (words.empty() || words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
+      print(program_help(commands));
+      return kOk;
+    }
+    if (words[0] == "--version") {
+      print(std::string("facula ") + version() + "\n");
+      return kOk;
+    }
+    std::size_t taken = 0;
+    const Command* command = find_command(words, commands, taken);
+    if (command == nullptr) return unknown_command(words, commands);
+    return guarded_run(*command, {words.begin() + static_cast<std::ptrdiff_t>(taken), words.end()});
+  } catch (const std::exception& error) {
+    return complain("facula", error.what(), kFailed);
+  }
+}
+
+}  // namespace facula

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/capture/capture_file.hpp>
+#include <facula/acquire/core/scan_file.hpp>
+#include <facula/acquire/triangulate/extract_scan.hpp>
+#include <facula/apps/cli/output_path.hpp>
+#include <facula/apps/commands/extract.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace facula {
+namespace {
+
+struct ExtractArguments {
+  std::filesystem::path capture;
+  std::filesystem::path frames;
+  std::vector<std::filesystem::path> out;
+  std::string detector;
+  std::string channel;
+  std::optional<double> sigma;    ///< [px]
+  std::optional<double> min_snr;  ///< [1]
+};
+
+void declare(Arguments& arguments, ExtractArguments& a) {
+  arguments.input("CAPTURE", a.capture, "a capture folder, or its capture.toml");
+  arguments.required();
+  arguments.outputs(
+      "--out", a.out, "the scan: .pcd keeps everything, .ply and .asc the points that are there");
+  arguments.required();
+  arguments.input("--frames", a.frames, "folder where the frames lie, if not beside the capture");
+  arguments.choice("--detector",
+                   a.detector,
+                   {"fir", "centroid"},
+                   "how the line is found, instead of what the capture says");
+  arguments.choice(
+      "--channel",
+      a.channel,
+      {"grey", "red", "green", "blue", "red-excess", "green-excess", "blue-excess", "maximum"},
+      "what of a colour pixel counts, instead of what the capture says");
+  arguments.number("--sigma-px", a.sigma, kPixels, "expected width of the line, 1 sigma");
+  arguments.number("--min-snr", a.min_snr, kPlainNumber, "least height of the line over the noise");
+}
+
+void apply_overrides(const ExtractArguments& a, StripeOptions& stripe) {
+  if (!a.detector.empty()) stripe.detector = detector_from_name(a.detector);
+  if (!a.channel.empty()) stripe.channel = channel_from_name(a.channel);
+  if (a.sigma) stripe.sigma = *a.sigma;
+  if (a.min_snr) stripe.min_snr = *a.min_snr;
+  stripe.check();
+}
+
+double percent(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+void report_zero_line(const std::vector<double>& shifts, Figures& figures) {
+  if (shifts.empty()) return;
+  const auto [least, most] = std::minmax_element(shifts.begin(), shifts.end());
+  double sum = 0;
+  for (const double shift : shifts) sum += shift;
+  figures.number(
+      "zero_line_shift_mean_px", "zero line, mean shift", sum / double(shifts.size()), 3);
+  figures.number("zero_line_shift_min_px", "zero line, least shift", *least, 3);
+  figures.number("zero_line_shift_max_px", "zero line, largest shift", *most, 3);
+}
+
+void report(const ExtractResult& result, Figures& figures) {
+  figures.count("frames", "frames", result.frames);
+  figures.count("rows", "rows of the scan", static_cast<std::size_t>(result.scan.rows));
+  figures.count("points", "points", result.scan.valid_count());
+  figures.number("stripes_seen_percent",
+                 "rows with a stripe",
+                 percent(result.stripes_seen, result.rows_searched),
+                 1);
+  figures.number("outside_percent",
+                 "stripes outside the volume",
+                 percent(result.outside_volume, result.stripes_seen),
+                 1);
+  figures.number(
+      "saturated_percent", "stripes saturated", percent(result.saturated, result.stripes_seen), 1);
+  figures.number("stripe_sigma_px", "stripe sigma, median", result.median_pixel_sigma, 3);
+  figures.number("stripe_width_px", "stripe width, median", result.median_width, 2);
+  figures.number("noise_dn", "image noise, median", result.median_noise, 2);
+  figures.number("point_sigma_mm", "point sigma, median", 1000 * result.median_point_sigma, 3);
+  report_zero_line(result.zero_line_shift, figures);
+}
+
+void run(const ExtractArguments& a, Session& session) {
+  for (const auto& path : a.out) check_output(path, {".pcd", ".ply", ".asc"});
+  const auto frames = a.frames.empty() ? std::nullopt : std::optional(a.frames);
+  Capture capture = read_capture(a.capture, frames);
+  apply_overrides(a, capture.stripe);
+  const ExtractResult result =
+      extract_scan(capture, {session.num_threads, session.progress("reading stripes")});
+  for (const auto& path : a.out) write_scan(path, result.scan);
+  report(result, session.figures);
+  for (std::size_t i = 0; i < a.out.size(); ++i) {
+    session.figures.text("out_" + std::to_string(i + 1), "written", a.out[i].string());
+  }
+}
+
+}  // namespace
+
+Command extract_command() {
+  const auto a = std::make_shared<ExtractArguments>();
+  return {
+      .name = "extract",
+      .summary = "find the laser line in frames and make a scan",
+      .description =
+          "Finds the laser line in every frame of a capture to a fraction of a pixel, meets "
+          "each ray with the laser plane, turns the points by the axis, and writes a polar "
+          "scan with a standard deviation per point.",
+      .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
+                   "data/rigs/head_fs1500.toml --from-deg 0 --to-deg 10 --step-deg 1 --out room",
+                   "facula extract room --out room.pcd --out room.ply",
+                   "facula extract room --detector centroid --min-snr 8 --out centroid.pcd"},
+      .declare = [a](Arguments& arguments) { declare(arguments, *a); },
+      .run = [a](Session& session) { run(*a, session); }};
+}
+
+}  // namespace facula

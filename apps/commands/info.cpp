@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/capture/capture_file.hpp>
+#include <facula/acquire/core/cloud_file.hpp>
+#include <facula/acquire/core/mesh_file.hpp>
+#include <facula/acquire/core/scan_file.hpp>
+#include <facula/acquire/rig/rig_file.hpp>
+#include <facula/acquire/simulate/scene.hpp>
+#include <facula/apps/cli/file_kind.hpp>
+#include <facula/apps/commands/info.hpp>
+#include <facula/apps/commands/info_figures.hpp>
+#include <facula/apps/commands/map_figures.hpp>
+#include <facula/reconstruct/register/scan_project.hpp>
+
+#include <memory>
+
+namespace facula {
+namespace {
+
+struct InfoArguments {
+  std::filesystem::path file;
+  std::filesystem::path frames;
+};
+
+void declare(Arguments& arguments, InfoArguments& a) {
+  arguments.input("FILE",
+                  a.file,
+                  "a rig, scene, capture, scan, cloud, mesh, project (poses.toml, .conf, folder), "
+                  "map (.bt, .ot) or navigation grid (.yaml)");
+  arguments.required();
+  arguments.input("--frames", a.frames, "folder where the frames of a capture lie, if elsewhere");
+}
+
+void run(const InfoArguments& a, Session& session) {
+  const FileKind kind = file_kind(a.file);
+  Figures& figures = session.figures;
+  figures.text("file", "file", a.file.string());
+  figures.text("kind", "kind", to_string(kind));
+  switch (kind) {
+    case FileKind::kRig:
+      return describe(read_rig(a.file), figures);
+    case FileKind::kScene:
+      return describe(read_scene(a.file), figures);
+    case FileKind::kCapture: {
+      const auto frames = a.frames.empty() ? std::nullopt : std::optional(a.frames);
+      return describe(read_capture(a.file, frames), figures);
+    }
+    case FileKind::kProject:
+      return describe(read_scan_project(a.file), figures);
+    case FileKind::kScan:
+      return describe(read_scan(a.file), figures);
+    case FileKind::kCloud:
+      return describe(read_cloud(a.file), figures);
+    case FileKind::kMesh:
+      return describe(read_mesh(a.file), figures);
+    case FileKind::kMap:
+      return report_map(OccupancyMap::read(a.file), figures);
+    case FileKind::kGrid:
+      return report_grid(read_navigation_grid(a.file), figures);
+  }
+}
+
+}  // namespace
+
+Command info_command() {
+  const auto a = std::make_shared<InfoArguments>();
+  return {.name = "info",
+          .summary = "say what a file is and whether it is sound",
+          .description =
+              "Reads a file that facula works with, checks it as the other commands would, and "
+              "prints its figures; says what is wrong with it otherwise.",
+          .examples = {"facula info data/rigs/head_fs1500.toml",
+                       "facula info data/scenes/furnished_room.toml --json -"},
+          .declare = [a](Arguments& arguments) { declare(arguments, *a); },
+          .run = [a](Session& session) { run(*a, session); }};
+}
+
+}  // namespace facula

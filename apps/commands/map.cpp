@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/error.hpp>
+#include <facula/apps/cli/output_path.hpp>
+#include <facula/apps/commands/map.hpp>
+#include <facula/apps/commands/map_figures.hpp>
+#include <facula/apps/commands/posed_scans.hpp>
+#include <facula/map/navigation_grid.hpp>
+#include <facula/map/occupancy_map.hpp>
+
+#include <memory>
+
+namespace facula {
+namespace {
+
+struct MapArguments {
+  std::vector<std::filesystem::path> scans;
+  std::vector<std::filesystem::path> out;
+  std::filesystem::path grid;
+  OccupancyOptions options;
+  NavigationGridOptions grid_options;
+};
+
+void declare(Arguments& arguments, MapArguments& a) {
+  arguments.inputs("SCANS", a.scans, "a scan, several, or a project (poses.toml, .conf, folder)");
+  arguments.required();
+  arguments.outputs("--out", a.out, "the map: .bt (free or occupied) or .ot (probabilities)");
+  arguments.required();
+  arguments.number("--resolution-mm", a.options.resolution, kMillimetres, "edge of a cell");
+  arguments.number("--max-range-m",
+                   a.options.max_range,
+                   kMetres,
+                   "longer rays only clear space up to here, 0 = no limit");
+  arguments.output("--grid", a.grid, "also write a navigation grid (.yaml, with a .pgm beside it)");
+  arguments.number("--min-height-m",
+                   a.grid_options.min_height,
+                   kMetres,
+                   "lowest part of space that blocks the robot");
+  arguments.number("--max-height-m", a.grid_options.max_height, kMetres, "highest such part");
+}
+
+OccupancyMap build_map(const MapArguments& a, Session& session) {
+  const PosedScans scans = read_posed_scans(a.scans);
+  session.figures.count("scans", "scans", scans.project.scans.size());
+  session.figures.count("points", "points", scans.points_read);
+  session.figures.count("mixed_removed", "mixed points removed", scans.mixed_removed);
+  OccupancyOptions options = a.options;
+  options.num_threads = session.num_threads;
+  OccupancyMap map(options);
+  const Progress progress = session.progress("casting rays");
+  std::size_t done = 0;
+  for (const PosedCloud& scan : scans.project.scans) {
+    map.insert(transformed(scan.cloud, scan.world_from_scan));
+    progress(++done, scans.project.scans.size());
+  }
+  return map;
+}
+
+void run(const MapArguments& a, Session& session) {
+  for (const auto& path : a.out) check_output(path, {".bt", ".ot"});
+  if (!a.grid.empty()) check_output(a.grid, {".yaml"});
+  a.options.check();
+  a.grid_options.check();
+  const OccupancyMap map = build_map(a, session);
+  for (const auto& path : a.out) map.write(path);
+  session.figures.count("skipped_points", "points skipped", map.skipped_points());
+  report_map(map, session.figures);
+  if (a.grid.empty()) return;
+  const NavigationGrid grid = navigation_grid(map, a.grid_options);
+  write_navigation_grid(a.grid, grid);
+  report_grid(grid, session.figures.part("grid", "Navigation grid:"));
+}
+
+}  // namespace
+
+Command map_command() {
+  const auto a = std::make_shared<MapArguments>();
+  return {.name = "map",
+          .summary = "make an occupancy map and a navigation grid",
+          .description =
+              "Casts a ray from the scanner to every point and marks the cells of space as free, "
+              "occupied or unknown (OctoMap). The grid is the map seen from above, as ROS map "
+              "servers read it.",
+          .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
+                       "data/rigs/head_fs1500.toml --step-deg 12 --out room",
+                       "facula extract room --out room.pcd",
+                       "facula map room.pcd --resolution-mm 100 --out room.bt --out room.ot --grid "
+                       "room.yaml --min-height-m 0.1 --max-height-m 1.5"},
+          .declare = [a](Arguments& arguments) { declare(arguments, *a); },
+          .run = [a](Session& session) { run(*a, session); }};
+}
+
+}  // namespace facula

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/apps/commands/map_figures.hpp>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace facula {
+
+void report_map(const OccupancyMap& map, Figures& figures) {
+  const MapStatistics statistics = map.statistics();
+  const Eigen::Vector3d& low = statistics.min;
+  const Eigen::Vector3d& high = statistics.max;
+  figures.number("resolution_mm", "cell", 1000 * map.resolution(), 1);
+  figures.count("free_cells", "free cells", statistics.free_cells);
+  figures.count("occupied_cells", "occupied cells", statistics.occupied_cells);
+  figures.count("nodes", "nodes of the tree", statistics.nodes);
+  figures.numbers("min_m", "lower corner", {low.x(), low.y(), low.z()}, 3);
+  figures.numbers("max_m", "upper corner", {high.x(), high.y(), high.z()}, 3);
+}
+
+void report_grid(const NavigationGrid& grid, Figures& figures) {
+  const auto cells_of = [&](std::uint8_t state) {
+    return static_cast<std::size_t>(std::count(grid.cells.begin(), grid.cells.end(), state));
+  };
+  figures.count("grid_cols", "columns", static_cast<std::size_t>(grid.cols));
+  figures.count("grid_rows", "rows", static_cast<std::size_t>(grid.rows));
+  figures.number("grid_resolution_mm", "cell", 1000 * grid.resolution, 1);
+  figures.numbers("grid_origin_m", "lower left corner", {grid.origin.x(), grid.origin.y()}, 3);
+  figures.count("grid_free_cells", "free cells", cells_of(NavigationGrid::kFree));
+  figures.count("grid_occupied_cells", "occupied cells", cells_of(NavigationGrid::kOccupied));
+  figures.count("grid_unknown_cells", "unknown cells", cells_of(NavigationGrid::kUnknown));
+}
+
+}  // namespace facula

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <facula/apps/cli/figures.hpp>
+#include <facula/reconstruct/measure/plane.hpp>
+
+#include <filesystem>
+#include <vector>
+
+namespace facula {
+
+/// Planes, angles of all pairs, distances of the pairs that are parallel to 10 degrees.
+void report_planes(const std::vector<ExtractedPlane>& planes, Figures& figures);
+
+/// A line per plane, units in the headings; whole or not at all.
+void write_planes_csv(const std::filesystem::path& path, const std::vector<ExtractedPlane>& planes);
+
+}  // namespace facula

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/scan_file.hpp>
+#include <facula/apps/cli/file_kind.hpp>
+#include <facula/apps/commands/posed_scans.hpp>
+#include <facula/reconstruct/filter/scan_filters.hpp>
+
+#include <system_error>
+#include <utility>
+
+namespace facula {
+namespace {
+
+/// A grid knows which points are neighbours, so mixed points can be told; a bare cloud is taken as
+/// it is.
+void clean_scan(PosedCloud& posed, PosedScans& scans) {
+  PolarScan scan = read_scan(posed.file);
+  scans.mixed_removed += remove_mixed_points(scan);
+  posed.cloud = cloud_from_scan(scan);
+}
+
+bool is_grid(const std::filesystem::path& file) {
+  std::error_code unknown;
+  return std::filesystem::exists(file, unknown) && file_kind(file) == FileKind::kScan;
+}
+
+}  // namespace
+
+PosedScans read_posed_scans(const std::vector<std::filesystem::path>& paths, bool filter) {
+  PosedScans scans;
+  for (const auto& path : paths) {
+    const FileKind kind = file_kind(path);
+    require(kind == FileKind::kProject || kind == FileKind::kScan || kind == FileKind::kCloud ||
+                kind == FileKind::kMesh,
+            "expected a scan, a cloud or a project of scans, got a ",
+            to_string(kind),
+            " in '",
+            path.string(),
+            "'; 'facula extract' makes scans of captures");
+    for (PosedCloud& posed : read_scan_project(path).scans) {
+      scans.points_read += posed.cloud.size();
+      if (filter && is_grid(posed.file)) clean_scan(posed, scans);
+      scans.project.scans.push_back(std::move(posed));
+    }
+  }
+  require(scans.points_read > scans.mixed_removed,
+          "expected points, got none in '",
+          paths.front().string(),
+          "'; was the scan empty?");
+  return scans;
+}
+
+}  // namespace facula

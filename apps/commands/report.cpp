@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/capture/capture_file.hpp>
+#include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/mesh_file.hpp>
+#include <facula/acquire/core/scan_file.hpp>
+#include <facula/apps/cli/file_kind.hpp>
+#include <facula/apps/cli/output_path.hpp>
+#include <facula/apps/commands/posed_scans.hpp>
+#include <facula/apps/commands/report.hpp>
+#include <facula/apps/commands/report_sections.hpp>
+#include <facula/reconstruct/filter/normals.hpp>
+
+#include <memory>
+#include <utility>
+
+namespace facula {
+namespace {
+
+struct ReportArguments {
+  std::filesystem::path out;
+  std::filesystem::path capture;
+  std::filesystem::path frames;
+  std::vector<std::filesystem::path> scans;
+  std::filesystem::path mesh;
+  std::filesystem::path map;
+  std::filesystem::path grid;
+  std::filesystem::path project;
+};
+
+void declare(Arguments& arguments, ReportArguments& a) {
+  arguments.output("--out", a.out, "the page (.html)");
+  arguments.required();
+  arguments.input("--capture", a.capture, "a capture: the stripe over a few frames");
+  arguments.input("--frames", a.frames, "folder where its frames lie, if not beside it");
+  arguments.inputs("--scan", a.scans, "a scan: range image and planes");
+  arguments.input("--project", a.project, "poses.toml: all scans together, planes, poses");
+  arguments.input("--mesh", a.mesh, "a mesh: three views");
+  arguments.input("--map", a.map, "an occupancy map (.bt, .ot) from above");
+  arguments.input("--grid", a.grid, "a navigation grid (.yaml) from above");
+}
+
+/// Normals tell the faces of a wall from the points in front of it.
+ReportSection planes_section(const std::string& heading, PointCloud cloud, int num_threads) {
+  NormalOptions normals;
+  normals.num_threads = num_threads;
+  estimate_normals(cloud, normals);
+  return cloud_section(heading, cloud, extract_planes(cloud));
+}
+
+void add_scans(const ReportArguments& a, int num_threads, Report& report) {
+  for (const auto& path : a.scans) {
+    const std::string name = path.filename().string();
+    if (file_kind(path) == FileKind::kScan) {
+      report.sections.push_back(scan_section(name, read_scan(path)));
+    }
+    report.sections.push_back(
+        planes_section("Planes in " + name, read_posed_scans({path}).project.fused(), num_threads));
+  }
+}
+
+Report make_report(const ReportArguments& a, Session& session) {
+  constexpr std::size_t kSteps = 6;
+  Report report;
+  report.title = "Facula report";
+  std::vector<RigidTransform> poses;
+  session.step("capture", 1, kSteps);
+  if (!a.capture.empty()) {
+    const auto frames = a.frames.empty() ? std::nullopt : std::optional(a.frames);
+    report.sections.push_back(capture_section(read_capture(a.capture, frames)));
+  }
+  session.step("scans", 2, kSteps);
+  add_scans(a, session.num_threads, report);
+  session.step("project", 3, kSteps);
+  if (!a.project.empty()) {
+    const ScanProject project = read_posed_scans({a.project}).project;
+    for (const PosedCloud& scan : project.scans) poses.push_back(scan.world_from_scan);
+    report.sections.push_back(project_section(project));
+    report.sections.push_back(
+        planes_section("All scans together", project.fused(), session.num_threads));
+  }
+  session.step("mesh", 4, kSteps);
+  if (!a.mesh.empty()) {
+    report.sections.push_back(
+        mesh_section(a.mesh.filename().string(), read_mesh(a.mesh), session.num_threads));
+  }
+  session.step("maps", 5, kSteps);
+  if (!a.map.empty()) {
+    report.sections.push_back(
+        map_section(a.map.filename().string(), OccupancyMap::read(a.map), poses));
+  }
+  if (!a.grid.empty()) {
+    report.sections.push_back(
+        grid_section(a.grid.filename().string(), read_navigation_grid(a.grid), poses));
+  }
+  return report;
+}
+
+void run(const ReportArguments& a, Session& session) {
+  check_output(a.out, {".html", ".htm"});
+  const Report report = make_report(a, session);
+  require(!report.sections.empty(),
+          "expected something to show, got none; give --capture, --scan, "
+          "--project, --mesh, --map or --grid");
+  write_html_report(a.out, report);
+  std::size_t pictures = 0;
+  std::size_t tables = 0;
+  for (const ReportSection& section : report.sections) {
+    pictures += section.pictures.size();
+    tables += section.tables.size();
+  }
+  session.figures.text("out", "written", a.out.string());
+  session.figures.count("sections", "sections", report.sections.size());
+  session.figures.count("pictures", "pictures", pictures);
+  session.figures.count("tables", "tables", tables);
+}
+
+}  // namespace
+
+Command report_command() {
+  const auto a = std::make_shared<ReportArguments>();
+  return {.name = "report",
+          .summary = "show results on one HTML page",
+          .description =
+              "Puts what other commands have made onto one page with pictures and tables that "
+              "needs no other file: the found stripe over a few frames, range images, deviations "
+              "from planes, maps from above, meshes from three sides.",
+          .examples = {"facula simulate data/scenes/turntable_object.toml --rig "
+                       "data/rigs/ciclop_turntable.toml --step-deg 15 --out object",
+                       "facula extract object --out object.pcd",
+                       "facula mesh object.pcd --out object.ply",
+                       "facula report --capture object --scan object.pcd --mesh object.ply --out "
+                       "report.html"},
+          .declare = [a](Arguments& arguments) { declare(arguments, *a); },
+          .run = [a](Session& session) { run(*a, session); }};
+}
+
+}  // namespace facula

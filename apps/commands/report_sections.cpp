@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/capture/frame_source.hpp>
+#include <facula/acquire/stripe/stripe_detector.hpp>
+#include <facula/apps/cli/arguments.hpp>
+#include <facula/apps/cli/figures.hpp>
+#include <facula/apps/cli/number_text.hpp>
+#include <facula/apps/commands/info_figures.hpp>
+#include <facula/apps/commands/map_figures.hpp>
+#include <facula/apps/commands/report_sections.hpp>
+#include <facula/apps/report/map_top_view.hpp>
+#include <facula/apps/report/mesh_views.hpp>
+#include <facula/apps/report/plane_deviation.hpp>
+#include <facula/apps/report/png.hpp>
+#include <facula/apps/report/range_image.hpp>
+#include <facula/apps/report/scan_picture.hpp>
+#include <facula/apps/report/stripe_over_frame.hpp>
+
+#include <algorithm>
+#include <set>
+
+namespace facula {
+namespace {
+
+ReportPicture picture(const std::string& caption, const Image8& image) {
+  return {caption, encode_png(image)};
+}
+
+/// The figures facula info has for a thing, as a table.
+template <typename Thing>
+ReportTable described(const Thing& thing) {
+  Figures figures;
+  describe(thing, figures);
+  return figure_table("Figures", figures);
+}
+
+ReportTable plane_table(const std::vector<ExtractedPlane>& planes) {
+  ReportTable table{"Planes, largest first",
+                    {"plane",
+                     "normal",
+                     "distance [mm]",
+                     "points",
+                     "rms [mm]",
+                     "flatness [mm]",
+                     "extent [mm]",
+                     "4 sigma/D [%]"},
+                    {}};
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const PlaneFit& fit = planes[i].fit;
+    const Eigen::Vector3d& n = fit.plane.normal;
+    table.rows.push_back(
+        {std::to_string(i + 1),
+         fixed_text(n.x(), 4) + ", " + fixed_text(n.y(), 4) + ", " + fixed_text(n.z(), 4),
+         fixed_text(1000 * fit.plane.distance, 2),
+         std::to_string(fit.points),
+         fixed_text(1000 * fit.rms, 3),
+         fixed_text(1000 * fit.peak_to_valley, 2),
+         fixed_text(1000 * fit.extent, 0),
+         fixed_text(100 * fit.system_error, 3)});
+  }
+  return table;
+}
+
+}  // namespace
+
+ReportTable figure_table(const std::string& caption, const Figures& figures) {
+  ReportTable table{caption, {"figure", "value"}, {}};
+  for (auto& [label, value] : figures.lines()) table.rows.push_back({label, value});
+  return table;
+}
+
+ReportSection capture_section(const Capture& capture) {
+  ReportSection section;
+  section.heading = "Capture " + capture.file.parent_path().filename().string();
+  section.text = "The laser line as it was found, drawn over the frames it was found in.";
+  section.tables.push_back(described(capture));
+  const CaptureFrames frames(capture);
+  if (frames.size() == 0) return section;
+  const std::size_t last = frames.size() - 1;
+  for (const std::size_t i : std::set<std::size_t>{last / 6, last / 2, last - last / 6}) {
+    const Image8 lit = frames.lit(i);
+    const StripeProfile profile = detect_stripe(lit.view(), frames.dark(i).view(), capture.stripe);
+    section.pictures.push_back(picture(
+        "Frame " + std::to_string(i + 1) + ": stripe in " + std::to_string(profile.seen_count()) +
+            " of " + std::to_string(profile.size()) + " rows.",
+        stripe_over_frame(lit.view(), profile, capture.stripe.direction)));
+  }
+  return section;
+}
+
+ReportSection scan_section(const std::string& name, const PolarScan& scan) {
+  ReportSection section{"Scan " + name, "", {}, {}};
+  section.pictures.push_back(
+      picture("Distance from the sensor, per row and axis position.", range_image(scan)));
+  section.tables.push_back(described(scan));
+  return section;
+}
+
+ReportSection cloud_section(const std::string& heading,
+                            const PointCloud& cloud,
+                            const std::vector<ExtractedPlane>& planes) {
+  ReportSection section{heading, "", {}, {}};
+  section.pictures.push_back(
+      picture("The points from the front, the side and above.", scan_picture(cloud)));
+  if (planes.empty()) return section;
+  section.text = "Planes found in the points; blue points lie below a plane, red ones above.";
+  section.tables.push_back(plane_table(planes));
+  constexpr std::size_t kMostPictures = 3;
+  for (std::size_t i = 0; i < std::min(kMostPictures, planes.size()); ++i) {
+    section.pictures.push_back(picture("Deviations from plane " + std::to_string(i + 1) + ".",
+                                       plane_deviation(planes[i], cloud)));
+  }
+  return section;
+}
+
+ReportSection project_section(const ScanProject& project) {
+  ReportSection section{"Poses", "Where the scans were taken from, in the world frame.", {}, {}};
+  ReportTable table{
+      "Scans", {"scan", "points", "x [mm]", "y [mm]", "z [mm]", "turned by [deg]"}, {}};
+  for (const PosedCloud& scan : project.scans) {
+    const Eigen::Vector3d x = 1000 * scan.world_from_scan.translation;
+    table.rows.push_back({scan.name,
+                          std::to_string(scan.cloud.size()),
+                          fixed_text(x.x(), 1),
+                          fixed_text(x.y(), 1),
+                          fixed_text(x.z(), 1),
+                          fixed_text(rotation_angle(scan.world_from_scan) / kDegrees.factor, 3)});
+  }
+  section.tables.push_back(table);
+  return section;
+}
+
+ReportSection mesh_section(const std::string& name, const TriangleMesh& mesh, int num_threads) {
+  ReportSection section{"Mesh " + name, "", {}, {}};
+  MeshViewsOptions options;
+  options.num_threads = num_threads;
+  section.pictures.push_back(picture("The mesh from the front, the side and obliquely from above.",
+                                     mesh_views(mesh, options)));
+  section.tables.push_back(described(mesh));
+  return section;
+}
+
+ReportSection map_section(const std::string& name,
+                          const OccupancyMap& map,
+                          const std::vector<RigidTransform>& world_from_scan) {
+  ReportSection section{"Map " + name, "", {}, {}};
+  Figures figures;
+  report_map(map, figures);
+  section.pictures.push_back(picture("The highest occupied cell of every column, from above.",
+                                     map_top_view(map, world_from_scan)));
+  section.tables.push_back(figure_table("Figures", figures));
+  return section;
+}
+
+ReportSection grid_section(const std::string& name,
+                           const NavigationGrid& grid,
+                           const std::vector<RigidTransform>& world_from_scan) {
+  ReportSection section{"Navigation grid " + name, "", {}, {}};
+  Figures figures;
+  report_grid(grid, figures);
+  section.pictures.push_back(picture("Free cells light, occupied ones dark, unknown ones grey.",
+                                     map_top_view(grid, world_from_scan)));
+  section.tables.push_back(figure_table("Figures", figures));
+  return section;
+}
+
+}  // namespace facula
