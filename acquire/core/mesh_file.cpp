@@ -46,7 +46,7 @@ void check_vertices(const TriangleMesh& mesh, const std::filesystem::path& path)
 
 TriangleMesh read_mesh(const std::filesystem::path& path, double unit) {
   check_unit(unit);
-  const TriangleMesh mesh = scaled(read_by_extension(path), unit);
+  TriangleMesh mesh = scaled(read_by_extension(path), unit);
   require(!mesh.empty(),
           "'",
           path.string(),

@@ -59,7 +59,8 @@ double text_value(std::string_view word, const PcdField& field, const std::strin
 }
 
 void take_text(std::string_view data, PcdHeader& header, const std::string& file) {
-  if (header.points > (data.size() + 1) / (2 * values_per_point(header.table))) {
+  const std::size_t per_point = values_per_point(header.table);
+  if (per_point == 0 || header.points > (data.size() + 1) / (2 * per_point)) {
     fail_torn(header, file);
   }
   reserve_values(header);
@@ -80,7 +81,7 @@ void take_text(std::string_view data, PcdHeader& header, const std::string& file
 
 void take_binary(std::string_view data, PcdHeader& header, const std::string& file) {
   const std::size_t stride = bytes_per_point(header.table);
-  if (header.points > data.size() / stride) fail_torn(header, file);
+  if (stride == 0 || header.points > data.size() / stride) fail_torn(header, file);
   require(data.size() == header.points * stride,
           "'",
           file,
@@ -107,7 +108,7 @@ void take_compressed(std::string_view data, PcdHeader& header, const std::string
       static_cast<std::size_t>(decode_number(data.data() + 4, NumberType::kUint32, false));
   data.remove_prefix(8);
   const std::size_t stride = bytes_per_point(header.table);
-  if (packed > data.size() || size % stride != 0 || size / stride != header.points) {
+  if (stride == 0 || packed > data.size() || size % stride != 0 || size / stride != header.points) {
     fail_torn(header, file);
   }
   const auto unpacked = unpack_lzf(data.substr(0, packed), size);

@@ -78,9 +78,10 @@ std::size_t smallest_row(const PlyElement& element, PlyEncoding encoding) {
 }
 
 void take_rows(Body& body, PlyElement& element) {
-  if (element.properties.empty()) return;
+  const std::size_t smallest = smallest_row(element, body.encoding);
+  if (smallest == 0) return;
   // The last row of a text may lack its line end, hence the byte more.
-  if (element.rows > (body.rest.size() + 1) / smallest_row(element, body.encoding)) {
+  if (element.rows > (body.rest.size() + 1) / smallest) {
     fail_torn(body, element);
   }
   for (PlyProperty& property : element.properties) {

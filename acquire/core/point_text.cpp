@@ -34,9 +34,9 @@ Eigen::Vector3f point_of(std::string_view line, std::size_t leading, const Place
             place.line,
             " of '",
             place.file,
-            "' has ",
-            word.empty() ? "nothing" : "'" + std::string(word.substr(0, 40)) + "'",
-            " as its value ",
+            "' has '",
+            word.substr(0, 40),
+            "' as its value ",
             k + 1,
             "; expected the numbers ",
             leading == 2 ? "col row x y z" : "x y z");
