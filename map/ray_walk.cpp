@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <cstdint>
 #include <limits>
 
 namespace facula {
@@ -17,60 +17,72 @@ double length_of(const Eigen::Vector3f& v) {
   return std::sqrt(static_cast<double>(squared));
 }
 
-/// State of a walk. next[i] is the ray parameter [m] at which it enters the next cell along axis i.
-struct Walk {
-  CellKey cell;
-  int step[3];
-  double next[3];
-  double delta[3];
+/// One axis of a walk.
+struct AxisWalk {
+  double next = std::numeric_limits<double>::max();   ///< ray parameter at the next border [m]
+  double delta = std::numeric_limits<double>::max();  ///< from border to border [m]
+  std::uint64_t step = 0;                             ///< what a step adds to the key
 };
 
-Walk start_walk(const VoxelGrid& grid,
-                const CellKey& cell,
-                const Eigen::Vector3f& origin,
-                const Eigen::Vector3f& direction) {
-  Walk walk{cell, {0, 0, 0}, {}, {}};
-  for (int i = 0; i < 3; ++i) {
-    const float along = direction[i];
-    walk.next[i] = walk.delta[i] = std::numeric_limits<double>::max();
-    if (!(along > 0) && !(along < 0)) continue;
-    walk.step[i] = along > 0 ? 1 : -1;
-    const int key = cell[static_cast<std::size_t>(i)];
-    double border = (static_cast<double>(key - kCentreKey) + 0.5) * grid.resolution;
-    border += static_cast<float>(walk.step[i] * grid.resolution * 0.5);
-    walk.next[i] = (border - static_cast<double>(origin[i])) / static_cast<double>(along);
-    walk.delta[i] = grid.resolution / std::fabs(static_cast<double>(along));
-  }
-  return walk;
+AxisWalk start_axis(double resolution, int key, float origin, float along) {
+  AxisWalk axis;
+  if (!(along > 0) && !(along < 0)) return axis;
+  const int sign = along > 0 ? 1 : -1;
+  double border = (static_cast<double>(key - kCentreKey) + 0.5) * resolution;
+  border += static_cast<float>(sign * resolution * 0.5);
+  axis.next = (border - static_cast<double>(origin)) / static_cast<double>(along);
+  axis.delta = resolution / std::fabs(static_cast<double>(along));
+  axis.step = static_cast<std::uint64_t>(static_cast<std::int64_t>(sign));
+  return axis;
 }
 
-/// Axis of the nearest border; ties go to the later axis.
-std::size_t nearest_axis(const Walk& walk) {
-  const std::size_t xy = walk.next[0] < walk.next[1] ? 0 : 1;
-  return walk.next[xy] < walk.next[2] ? xy : 2;
-}
+/// A ray within the grid, in units of metres along it.
+struct Ray {
+  Eigen::Vector3f origin;
+  Eigen::Vector3f direction;
+  double length;
+};
 
-void mark_passed(VoxelBrick& brick, const CellKey& cell) {
-  const unsigned bit = VoxelBricks::bit_of(cell);
-  brick.passed[bit >> 6] |= std::uint64_t{1} << (bit & 63);
-}
-
-/// Marks the cells from `first` up to but without `last`.
-void mark_between(Walk walk, const CellKey& last, double length, VoxelBricks& cells) {
-  VoxelBrick* brick = &cells.brick_of(walk.cell);
-  mark_passed(*brick, walk.cell);
+/// Marks the cells from `first` up to but without `last`. The axis with the nearest border steps;
+/// ties go to the later axis. Written without branches on the axis: which one it is cannot be
+/// foreseen, and a wrong guess by the processor costs more than the step.
+void mark_between(const VoxelGrid& grid,
+                  const Ray& ray,
+                  const CellKey& first,
+                  const CellKey& last,
+                  VoxelBricks& cells) {
+  const auto axis = [&](int i) {
+    const int key = first[static_cast<std::size_t>(i)];
+    return start_axis(grid.resolution, key, ray.origin[i], ray.direction[i]);
+  };
+  AxisWalk x = axis(0);
+  AxisWalk y = axis(1);
+  AxisWalk z = axis(2);
+  const std::uint64_t step_y = y.step << PackedCell::kShift;
+  const std::uint64_t step_z = z.step << 2 * PackedCell::kShift;
+  const std::uint64_t end = PackedCell::of(last).bits;
+  PackedCell cell = PackedCell::of(first);
+  VoxelBrick* brick = &cells.brick_of(cell);
+  brick->passed[cell.word()] |= cell.bit();
   for (;;) {
-    const std::size_t axis = nearest_axis(walk);
-    const int before = walk.cell[axis];
-    const int after = before + walk.step[axis];
-    walk.cell[axis] = after;
-    walk.next[axis] += walk.delta[axis];
+    const bool x_before_y = x.next < y.next;
+    const double nearer = x_before_y ? x.next : y.next;
+    const bool take_z = z.next <= nearer;
+    const bool take_x = x_before_y && !take_z;
+    const bool take_y = !x_before_y && !take_z;
+    const std::uint64_t before = cell.brick();
+    cell.bits += take_z ? step_z : x_before_y ? x.step : step_y;
+    x.next += take_x ? x.delta : 0.0;
+    y.next += take_y ? y.delta : 0.0;
+    z.next += take_z ? z.delta : 0.0;
     // Rounding can lead past the last cell; the ray's length then ends the walk.
-    const double reached = std::min(std::min(walk.next[0], walk.next[1]), walk.next[2]);
-    if (walk.cell == last || reached > length) return;
-    if (after < 0 || after >= VoxelBricks::kKeyLimit) return;
-    if (((before ^ after) & ~7) != 0) brick = &cells.brick_of(walk.cell);
-    mark_passed(*brick, walk.cell);
+    const double reached = std::min(std::min(x.next, y.next), z.next);
+    if (cell.bits == end || reached > ray.length) return;
+    if (cell.brick() != before) {
+      if ((cell.bits & PackedCell::kOffGrid) != 0) return;
+      brick = &cells.brick_of(cell);
+    }
+    brick->passed[cell.word()] |= cell.bit();
   }
 }
 
@@ -105,11 +117,9 @@ bool walk_ray(const VoxelGrid& grid,
   if (*first != *last) {
     const Eigen::Vector3f way = target - origin;
     const auto length = static_cast<float>(length_of(way));
-    if (length > 0) {
-      mark_between(start_walk(grid, *first, origin, way / length), *last, length, cells);
-    }
+    if (length > 0) mark_between(grid, {origin, way / length, length}, *first, *last, cells);
   }
-  if (!cut) cells.mark_ended(*last);
+  if (!cut) cells.mark_ended(PackedCell::of(*last));
   return true;
 }
 

@@ -2,6 +2,7 @@
 #include <facula/map/voxel_bricks.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace facula {
@@ -15,28 +16,34 @@ std::uint64_t spread(std::uint64_t v) {
   return (v | (v << 2)) & 0x249249249249ULL;
 }
 
-std::uint64_t brick_code(const CellKey& cell) {
+std::uint64_t morton_code(std::uint64_t brick) {
   const auto place = [&](int axis) {
-    return spread(static_cast<std::uint64_t>(cell[static_cast<std::size_t>(axis)]) >> 3);
+    return spread(brick >> (axis * PackedCell::kShift + 3) & 0x1fff) << axis;
   };
-  return place(0) | (place(1) << 1) | (place(2) << 2);
+  return place(0) | place(1) | place(2);
 }
 
-/// Fibonacci hashing (Knuth, TAOCP 3, 6.4): the upper half of the product is well mixed.
+/// From bit x + 8 y of word z to Morton order.
+void sort_bits(std::array<std::uint64_t, 8>& words) {
+  constexpr std::array<unsigned, 8> kSpread = {0, 1, 8, 9, 64, 65, 72, 73};
+  std::array<std::uint64_t, 8> sorted{};
+  for (unsigned z = 0; z < 8; ++z) {
+    for (std::uint64_t left = words[z]; left != 0; left &= left - 1) {
+      const auto bit = static_cast<unsigned>(std::countr_zero(left));
+      const unsigned place = kSpread[bit & 7] | kSpread[bit >> 3] << 1 | kSpread[z] << 2;
+      sorted[place >> 6] |= std::uint64_t{1} << (place & 63);
+    }
+  }
+  words = sorted;
+}
+
+/// Fibonacci hashing (Knuth, TAOCP 3, 6.4) of the folded number, so that all three axes reach the
+/// low bits of the result.
 std::size_t hash(std::uint64_t code) {
-  return static_cast<std::size_t>((code * 0x9e3779b97f4a7c15ULL) >> 32);
+  return static_cast<std::size_t>(((code ^ (code >> 32)) * 0x9e3779b97f4a7c15ULL) >> 32);
 }
 
 }  // namespace
-
-VoxelBrick& VoxelBricks::brick_of(const CellKey& cell) {
-  return find_or_add(brick_code(cell));
-}
-
-void VoxelBricks::mark_ended(const CellKey& cell) {
-  const unsigned bit = bit_of(cell);
-  brick_of(cell).ended[bit >> 6] |= std::uint64_t{1} << (bit & 63);
-}
 
 void VoxelBricks::merge(const VoxelBricks& more) {
   for (const VoxelBrick& theirs : more.bricks_) {
@@ -51,12 +58,15 @@ void VoxelBricks::merge(const VoxelBricks& more) {
 std::vector<VoxelBrick> VoxelBricks::take_sorted() {
   slots_.clear();
   std::vector<VoxelBrick> sorted = std::exchange(bricks_, {});
+  for (VoxelBrick& brick : sorted) {
+    brick.code = morton_code(brick.code);
+    for (std::size_t i = 0; i < brick.passed.size(); ++i) brick.passed[i] &= ~brick.ended[i];
+    sort_bits(brick.passed);
+    sort_bits(brick.ended);
+  }
   std::sort(sorted.begin(), sorted.end(), [](const VoxelBrick& a, const VoxelBrick& b) {
     return a.code < b.code;
   });
-  for (VoxelBrick& brick : sorted) {
-    for (std::size_t i = 0; i < brick.passed.size(); ++i) brick.passed[i] &= ~brick.ended[i];
-  }
   return sorted;
 }
 
