@@ -78,7 +78,7 @@ Image8 histogram_legend(const Histogram& histogram,
                         const DeviationHistogramOptions& options,
                         int width) {
   std::vector<LegendEntry> entries{
-      {kBarColor, std::to_string(static_cast<long long>(histogram.total)) + " points"}};
+      {kBarColor, format_count(static_cast<std::size_t>(histogram.total)) + " points"}};
   if (options.sigma > 0) {
     entries.push_back({kCurveColor, "normal, sigma = " + format_length(options.sigma)});
   }

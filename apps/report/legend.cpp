@@ -61,7 +61,7 @@ void draw_scale_bar(Image8& canvas,
                     const Eigen::Vector2d& left_end,
                     double pixels_per_metre,
                     int width) {
-  const std::vector<double> ticks = round_ticks(0, 0.3 * width / pixels_per_metre, 1);
+  const std::vector<double> ticks = round_ticks(0, 0.3 * width / pixels_per_metre, 3);
   if (ticks.size() < 2) return;
   const double length = ticks[1];
   const LengthUnit unit = length_unit_for(length);

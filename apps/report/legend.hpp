@@ -18,7 +18,7 @@ struct LegendEntry {
 /// The entries as a strip `width` px wide, in as many lines as they need.
 Image8 legend(const std::vector<LegendEntry>& entries, int width);
 
-/// A labelled bar of a round length, about a fifth of `width` px, its left end at (x, y).
+/// A labelled bar of a round length, a tenth to a quarter of `width` px, its left end at (x, y).
 /// `pixels_per_metre` must be above 0.
 void draw_scale_bar(Image8& canvas,
                     const Eigen::Vector2d& left_end,

@@ -4,6 +4,7 @@
 #include <facula/apps/report/depth_shading.hpp>
 #include <facula/apps/report/legend.hpp>
 #include <facula/apps/report/mesh_views.hpp>
+#include <facula/apps/report/number_format.hpp>
 #include <facula/apps/report/rasterize.hpp>
 #include <facula/apps/report/view_panels.hpp>
 
@@ -19,12 +20,14 @@ constexpr Color kFrontColor{158, 182, 206};
 constexpr Color kBackColor{214, 164, 92};
 constexpr int kFiner = 2;  // pixels of the raster per pixel of the picture, along each side
 
-Eigen::AlignedBox3d box_of(const TriangleMesh& mesh) {
+/// Outer dimensions of the triangles along a view's right, up and towards_viewer.
+Eigen::AlignedBox3d box_seen(const TriangleMesh& mesh, const ViewDirection& view) {
+  const Eigen::Matrix3d view_from_mesh = view.rotation();
   Eigen::AlignedBox3d box;
   for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
     for (const std::uint32_t corner : triangle) {
       const Eigen::Vector3f& vertex = mesh.vertices[corner];
-      if (vertex.allFinite()) box.extend(vertex.cast<double>());
+      if (vertex.allFinite()) box.extend(view_from_mesh * vertex.cast<double>());
     }
   }
   return box;
@@ -50,7 +53,7 @@ double brightness(const ViewDirection& view, const Eigen::Vector3f& normal) {
   if (seen.z() < 0) seen = -seen;
   const double lamp = std::max(0.0, seen.dot(Eigen::Vector3d(-0.42, 0.58, 0.70)));
   const double fill = std::max(0.0, seen.dot(Eigen::Vector3d(0.80, 0.05, 0.60)));
-  return 0.26 + 0.78 * lamp + 0.18 * fill;
+  return 0.34 + 0.70 * lamp + 0.18 * fill;
 }
 
 Image8 shaded(const TriangleMesh& mesh, const RasterView& view, const Raster& raster) {
@@ -79,15 +82,16 @@ void MeshViewsOptions::check() const {
 Image8 mesh_views(const TriangleMesh& mesh, const MeshViewsOptions& options) {
   options.check();
   mesh.check();
-  const Eigen::AlignedBox3d box = box_of(mesh);
-  if (box.isEmpty()) return empty_picture("The mesh has no triangles.");
+  const std::vector<ViewDirection> views{front_view(), side_view(), oblique_view()};
+  std::vector<Eigen::AlignedBox3d> seen;
+  for (const ViewDirection& view : views) seen.push_back(box_seen(mesh, view));
+  if (seen[0].isEmpty()) return empty_picture("The mesh has no triangles.");
 
-  const ViewPanels panels =
-      fit_panels(box, {front_view(), side_view(), oblique_view()}, options.panel);
+  const ViewPanels panels = fit_panels(views, seen, options.panel);
   std::vector<Image8> pictures;
-  for (const ViewDirection& direction : panels.views) {
-    const RasterView view{direction,
-                          panels.center,
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const RasterView view{views[i],
+                          panels.centers[i],
                           panels.pixels_per_metre * kFiner,
                           panels.rows * kFiner,
                           panels.cols * kFiner};
@@ -98,8 +102,8 @@ Image8 mesh_views(const TriangleMesh& mesh, const MeshViewsOptions& options) {
                                      .num_threads = options.num_threads});
     pictures.push_back(halved(shaded(mesh, view, raster)));
   }
-  const std::string remark =
-      std::to_string(mesh.triangles.size()) + " triangles, " + box_dimensions(box);
+  const std::string remark = format_count(mesh.triangles.size()) + " triangles, " +
+                             box_dimensions(box_seen(mesh, top_view()));
   return join_panels(panels, pictures, remark);
 }
 

@@ -7,7 +7,7 @@
 namespace facula {
 
 struct MeshViewsOptions {
-  int panel = 480;          ///< side of one view [px], 120 to 2000
+  int panel = 400;          ///< side of one view [px], 120 to 2000
   bool smooth = true;       ///< else every triangle has one shade
   bool hide_backs = false;  ///< leave out backs (rooms open up); else they are drawn in ochre
   int num_threads = 0;      ///< 0 = all cores [1]

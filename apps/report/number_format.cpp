@@ -63,6 +63,12 @@ std::string format_length(double metres, int digits) {
   return format_significant(metres * unit.per_metre, digits) + " " + unit.name;
 }
 
+std::string format_count(std::size_t count) {
+  std::string text = std::to_string(count);
+  for (std::size_t place = text.size(); place > 3; place -= 3) text.insert(place - 3, 1, ' ');
+  return text;
+}
+
 std::vector<double> round_ticks(double low, double high, int count) {
   if (!std::isfinite(low) || !std::isfinite(high) || !(high > low) || count < 1) return {};
   const double step = round_step((high - low) / count);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ std::string format_significant(double value, int digits = 3);
 
 /// A length [m] with its unit: "12.3 mm", "-45.6 µm", "3.21 m".
 std::string format_length(double metres, int digits = 3);
+
+/// A count in groups of three digits: "1 080 000".
+std::string format_count(std::size_t count);
 
 /// Round values (1, 2 or 5 times a power of ten apart) within [low, high], about `count` of them;
 /// none when the range is empty or not finite.

@@ -151,8 +151,9 @@ Image8 plane_deviation(const ExtractedPlane& plane, const PointCloud& cloud) {
                          largest * unit.per_metre,
                          std::string("distance from plane [") + unit.name + "]"};
   const Image8 map = map_of(deviations, scale, unit.per_metre);
-  const Image8 histogram =
-      deviation_histogram(deviations.distance, {.largest = largest, .sigma = plane.fit.rms});
+  const Image8 histogram = deviation_histogram(
+      deviations.distance,
+      {.largest = largest, .sigma = plane.fit.rms, .width = std::clamp(map.cols - 300, 480, 900)});
   return below({map, histogram}, 12);
 }
 

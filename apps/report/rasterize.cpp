@@ -45,15 +45,22 @@ Span pixels_within(double low, double high, int count) {
           static_cast<int>(std::floor(std::min(high, count - 1.0))) + 1};
 }
 
-/// Area-weighted mean normals of the triangles around each vertex.
+/// Normals of the triangles around each vertex, weighted by their angles there (Thürmer and
+/// Wüthrich 1998): how a flat face is cut into triangles does not tilt them.
 std::vector<Eigen::Vector3f> vertex_normals(const TriangleMesh& mesh) {
   std::vector<Eigen::Vector3f> normals(mesh.vertices.size(), Eigen::Vector3f::Zero());
   for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
-    const Eigen::Vector3f& a = mesh.vertices[triangle[0]];
-    const Eigen::Vector3f normal =
-        (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a);
-    if (!normal.allFinite()) continue;
-    for (const std::uint32_t corner : triangle) normals[corner] += normal;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3f& corner = mesh.vertices[triangle[k]];
+      const Eigen::Vector3f to_next =
+          (mesh.vertices[triangle[(k + 1) % 3]] - corner).stableNormalized();
+      const Eigen::Vector3f to_last =
+          (mesh.vertices[triangle[(k + 2) % 3]] - corner).stableNormalized();
+      const Eigen::Vector3f normal = to_next.cross(to_last);
+      const float sine = normal.norm();
+      if (!(sine > 0) || !std::isfinite(sine)) continue;
+      normals[triangle[k]] += normal / sine * std::atan2(sine, to_next.dot(to_last));
+    }
   }
   for (Eigen::Vector3f& normal : normals) normal.normalize();
   return normals;
@@ -159,7 +166,7 @@ class Painter {
                                  const Eigen::Vector3f& weight) const {
     const Eigen::Vector3f& a = mesh_.vertices[triangle[0]];
     const Eigen::Vector3f own =
-        (mesh_.vertices[triangle[1]] - a).cross(mesh_.vertices[triangle[2]] - a).normalized();
+        (mesh_.vertices[triangle[1]] - a).cross(mesh_.vertices[triangle[2]] - a).stableNormalized();
     if (normals_.empty()) return own;
     Eigen::Vector3f blended = Eigen::Vector3f::Zero();
     for (int k = 0; k < 3; ++k) {

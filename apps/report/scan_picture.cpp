@@ -73,8 +73,9 @@ void splat_point(Splat& splat, std::size_t index, const Eigen::Vector3d& seen, d
 
 Splat splat_cloud(const PointCloud& cloud,
                   const ViewPanels& panels,
-                  const ViewDirection& view,
+                  std::size_t index,
                   const ScanPictureOptions& options) {
+  const ViewDirection& view = panels.views[index];
   Splat splat{panels.rows * kFiner, panels.cols * kFiner, {}, {}};
   const std::size_t pixels = static_cast<std::size_t>(splat.rows) * splat.cols;
   splat.height.assign(pixels, std::numeric_limits<float>::quiet_NaN());
@@ -84,7 +85,7 @@ Splat splat_cloud(const PointCloud& cloud,
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (!cloud.points[i].allFinite()) continue;
     if (culled && cloud.normals[i].cast<double>().dot(view.towards_viewer) < 0) continue;
-    const Eigen::Vector3d x = (cloud.points[i].cast<double>() - panels.center) * scale;
+    const Eigen::Vector3d x = (cloud.points[i].cast<double>() - panels.centers[index]) * scale;
     const Eigen::Vector3d seen((splat.cols - 1) / 2.0 + x.dot(view.right),
                                (splat.rows - 1) / 2.0 - x.dot(view.up),
                                x.dot(view.towards_viewer));
@@ -126,6 +127,18 @@ std::vector<Color> height_colors(const PointCloud& cloud, const ColorScale& scal
   return colors;
 }
 
+ViewPanels panels_for(const Eigen::AlignedBox3d& box, int size) {
+  const std::vector<ViewDirection> views{front_view(), side_view(), top_view()};
+  std::vector<Eigen::AlignedBox3d> seen;
+  for (const ViewDirection& view : views) {
+    const Eigen::Matrix3d view_from_cloud = view.rotation();
+    const Eigen::Vector3d a = view_from_cloud * box.min();
+    const Eigen::Vector3d b = view_from_cloud * box.max();
+    seen.emplace_back(a.cwiseMin(b), a.cwiseMax(b));
+  }
+  return fit_panels(views, seen, size);
+}
+
 }  // namespace
 
 void ScanPictureOptions::check() const {
@@ -147,16 +160,17 @@ Image8 scan_picture(const PointCloud& cloud, const ScanPictureOptions& options) 
   const bool own_colors = options.use_colors && !cloud.colors.empty();
   const std::vector<Color> colors =
       own_colors ? cloud.colors : height_colors(cloud, scale, unit.per_metre);
-  const ViewPanels panels = fit_panels(box, {front_view(), side_view(), top_view()}, options.panel);
+  const ViewPanels panels = panels_for(box, options.panel);
   std::vector<Image8> pictures(panels.views.size());
   const auto draw = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Splat splat = splat_cloud(cloud, panels, panels.views[i], options);
+      const Splat splat = splat_cloud(cloud, panels, i, options);
       pictures[i] = picture_of(cloud, splat, panels.views[i], colors);
     }
   };
   parallel_for(pictures.size(), draw, {.chunk = 1});
-  const std::string remark = std::to_string(cloud.size()) + " points, " + box_dimensions(box);
+  const std::string remark =
+      format_count(cloud.size()) + " points, nearly all within " + box_dimensions(box);
   const Image8 joined = join_panels(panels, pictures, remark);
   return own_colors ? joined : beside({joined, color_bar(scale, joined.rows - 40)});
 }

@@ -7,7 +7,7 @@
 namespace facula {
 
 struct ScanPictureOptions {
-  int panel = 480;          ///< side of one view [px], 120 to 2000
+  int panel = 400;          ///< side of one view [px], 120 to 2000
   double point_size = 2.0;  ///< [px], 1 to 20
   bool hide_backs = true;   ///< points whose normal looks away are left out (rooms open up)
   bool use_colors = true;   ///< the cloud's own colours where it has them, else by height

@@ -81,7 +81,7 @@ void draw_stripe(Image8& canvas,
     const bool joined = i > 0 && profile.seen[i - 1] != 0 &&
                         std::abs(profile.position[i] - profile.position[i - 1]) <= kLargestJump;
     const Eigen::Vector2d from = joined ? stripe_pixel(profile, i - 1, direction, zoom) : here;
-    draw_line(canvas, from, here, {color, 1.4});
+    draw_line(canvas, from, here, {color, 1.8});
   }
 }
 

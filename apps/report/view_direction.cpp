@@ -5,6 +5,12 @@
 
 namespace facula {
 
+Eigen::Matrix3d ViewDirection::rotation() const {
+  Eigen::Matrix3d rotation;
+  rotation << right.transpose(), up.transpose(), towards_viewer.transpose();
+  return rotation;
+}
+
 ViewDirection front_view() {
   return {"front: x right, z up",
           Eigen::Vector3d::UnitX(),

@@ -14,6 +14,9 @@ struct ViewDirection {
   Eigen::Vector3d right = Eigen::Vector3d::UnitX();
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d towards_viewer = -Eigen::Vector3d::UnitY();
+
+  /// view_from_scene: rows right, up, towards_viewer.
+  Eigen::Matrix3d rotation() const;
 };
 
 ViewDirection front_view();    ///< x to the right, z up, seen along y

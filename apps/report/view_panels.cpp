@@ -16,21 +16,20 @@ constexpr int kGap = 10;          // between panels [px]
 constexpr int kNameRow = 34;      // [px]
 constexpr int kFootRow = 52;      // [px]
 
-/// Width and height of the box in a view [m].
-Eigen::Vector2d seen_size(const Eigen::AlignedBox3d& box, const ViewDirection& view) {
-  const Eigen::Vector3d sides = box.sizes();
-  return {sides.dot(view.right.cwiseAbs()), sides.dot(view.up.cwiseAbs())};
-}
-
 }  // namespace
 
-ViewPanels fit_panels(const Eigen::AlignedBox3d& box,
-                      const std::vector<ViewDirection>& views,
+ViewPanels fit_panels(const std::vector<ViewDirection>& views,
+                      const std::vector<Eigen::AlignedBox3d>& seen,
                       int size) {
-  Eigen::Vector2d largest = Eigen::Vector2d::Zero();
-  for (const ViewDirection& view : views) largest = largest.cwiseMax(seen_size(box, view));
-  ViewPanels panels{.views = views, .center = box.center()};
-  panels.pixels_per_metre = kFilled * size / std::max(largest.maxCoeff(), 1e-9);
+  require(views.size() == seen.size(), "every view needs its box");
+  ViewPanels panels;
+  panels.views = views;
+  Eigen::Vector3d largest = Eigen::Vector3d::Constant(1e-9);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    largest = largest.cwiseMax(seen[i].sizes());
+    panels.centers.emplace_back(views[i].rotation().transpose() * seen[i].center());
+  }
+  panels.pixels_per_metre = kFilled * size / largest.head<2>().maxCoeff();
   const double height = largest.y() * panels.pixels_per_metre + (1 - kFilled) * size;
   panels.rows = std::clamp(static_cast<int>(std::ceil(height)), size / 3, size);
   panels.cols = size;

@@ -14,15 +14,16 @@ namespace facula {
 /// Orthographic views side by side, all to one scale.
 struct ViewPanels {
   std::vector<ViewDirection> views;
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< in the middle of every panel [m]
-  double pixels_per_metre = 1;                       ///< [px/m]
-  int rows = 0;                                      ///< of a panel [px]
-  int cols = 0;                                      ///< of a panel [px]
+  std::vector<Eigen::Vector3d> centers;  ///< of the scene, in the middle of each panel [m]
+  double pixels_per_metre = 1;           ///< [px/m]
+  int rows = 0;                          ///< of a panel [px]
+  int cols = 0;                          ///< of a panel [px]
 };
 
-/// Panels `size` px wide and at most as high, in which the whole box is seen in every view.
-ViewPanels fit_panels(const Eigen::AlignedBox3d& box,
-                      const std::vector<ViewDirection>& views,
+/// Panels `size` px wide and at most as high, in which all that is seen has room: `seen` holds one
+/// box per view, along its right, up and towards_viewer [m].
+ViewPanels fit_panels(const std::vector<ViewDirection>& views,
+                      const std::vector<Eigen::AlignedBox3d>& seen,
                       int size);
 
 /// The panels' pictures under their names, with a scale bar and a remark below.
