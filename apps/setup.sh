@@ -12,7 +12,7 @@ packages=(
   libtbb-dev
   # files, command line, messages
   libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libboost-iostreams-dev
-  zlib1g-dev liblzma-dev
+  zlib1g-dev liblzma-dev liblz4-dev
   # tests and benchmarks
   libgtest-dev libbenchmark-dev
 )
