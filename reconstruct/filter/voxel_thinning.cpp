@@ -33,8 +33,8 @@ std::vector<Keyed> keyed_points(const PointCloud& cloud, double voxel) {
             " m wide, more than 2^21 voxels of ",
             voxel,
             " m; choose a larger voxel or remove stray points");
-    const auto [x, y, z] = std::array{std::uint64_t(cell.x()), std::uint64_t(cell.y()),
-                                      std::uint64_t(cell.z())};
+    const auto [x, y, z] =
+        std::array{std::uint64_t(cell.x()), std::uint64_t(cell.y()), std::uint64_t(cell.z())};
     keyed.push_back({(z << (2 * kBits)) | (y << kBits) | x, static_cast<std::uint32_t>(i)});
   }
   std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {

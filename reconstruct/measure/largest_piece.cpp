@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
-#include <facula/reconstruct/filter/nearest_neighbours.hpp>
 #include <facula/reconstruct/measure/largest_piece.hpp>
 
 #include <algorithm>
@@ -100,25 +99,6 @@ std::vector<std::size_t> largest_piece(const PointCloud& cloud,
     if (groups.in_largest(keys[n])) piece.push_back(indices[n]);
   }
   return piece;
-}
-
-double connecting_cell(const PointCloud& cloud,
-                       const std::vector<std::size_t>& indices,
-                       double least) {
-  std::vector<Eigen::Vector3f> points;
-  points.reserve(indices.size());
-  for (const std::size_t i : indices) points.push_back(cloud.points[i]);
-  const NearestNeighbours tree(points);
-  std::vector<double> gaps;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / 2000);
-  for (std::size_t i = 0; i < points.size(); i += stride) {
-    const auto nearest = tree.nearest(points[i], 2);
-    if (nearest.size() == 2) gaps.push_back(std::sqrt(double(nearest[1].squared_distance)));
-  }
-  if (gaps.empty()) return least;
-  const auto rank = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() * 95 / 100);
-  std::nth_element(gaps.begin(), rank, gaps.end());
-  return std::max(4 * *rank, least);
 }
 
 }  // namespace facula

@@ -17,10 +17,4 @@ std::vector<std::size_t> largest_piece(const PointCloud& cloud,
                                        const Plane& plane,
                                        double cell);
 
-/// A cell that bridges the ordinary gaps between these points: four times the distance to the
-/// nearest neighbour that 95 of 100 points have, at least `least` [m].
-double connecting_cell(const PointCloud& cloud,
-                       const std::vector<std::size_t>& indices,
-                       double least);
-
 }  // namespace facula

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
-#include <facula/acquire/core/parallel.hpp>
-#include <facula/reconstruct/filter/nearest_neighbours.hpp>
+#include <facula/reconstruct/filter/point_spacing.hpp>
 #include <facula/reconstruct/mesh/meshing.hpp>
 #include <facula/reconstruct/mesh/orient_mesh.hpp>
 
@@ -11,6 +10,7 @@
 
 #include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <Eigen/Eigenvalues>
 
 namespace facula {
 namespace {
@@ -39,20 +39,22 @@ class EdgeBound {
   double squared_;
 };
 
-double median_spacing(const std::vector<Eigen::Vector3f>& points) {
-  const NearestNeighbours tree(points);
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / 20000);
-  std::vector<double> gaps((points.size() + stride - 1) / stride);
-  const auto measure = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto nearest = tree.nearest(points[i * stride], 2);
-      gaps[i] = nearest.size() == 2 ? std::sqrt(double(nearest[1].squared_distance)) : 0;
-    }
-  };
-  parallel_for(gaps.size(), measure, {.num_threads = 0, .chunk = 1024});
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  return *middle;
+/// CGAL prints and gives up where the points span no plane.
+void require_wide(const std::vector<Eigen::Vector3f>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& p : points) sum += p.cast<double>();
+  const Eigen::Vector3d centroid = sum / static_cast<double>(points.size());
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3f& p : points) {
+    const Eigen::Vector3d d = p.cast<double>() - centroid;
+    scatter += d * d.transpose();
+  }
+  const Eigen::Vector3d spread =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+  require(spread(1) > 1e-12 * spread(2),
+          "the ",
+          points.size(),
+          " points lie on one line or in one spot, so they hold no surface");
 }
 
 /// The mesh of the facets, with only those points that a facet uses.
@@ -119,7 +121,9 @@ TriangleMesh mesh_advancing_front(const PointCloud& cloud, const AdvancingFrontO
           " that are finite");
   const PointCloud input = selected(cloud, finite);
   for (const Eigen::Vector3f& p : input.points) points.emplace_back(p.x(), p.y(), p.z());
-  const double longest = options.max_edge > 0 ? options.max_edge : 6 * median_spacing(input.points);
+  require_wide(input.points);
+  const double longest =
+      options.max_edge > 0 ? options.max_edge : 6 * quantile(point_spacing(input.points), 0.5);
   std::vector<Facet> facets;
   CGAL::advancing_front_surface_reconstruction(points.begin(),
                                                points.end(),

@@ -27,8 +27,8 @@ class GridMesher {
     const Eigen::Vector3f eye = scan_.sensor_origin[static_cast<std::size_t>(col)].cast<float>();
     const bool first_shorter = diagonal(cell[0], cell[2]) <= diagonal(cell[1], cell[3]);
     // Where a corner is missing, only the triangle of the other diagonal may stand.
-    const bool split_02 = valid(cell[0]) && valid(cell[2]) &&
-                          (first_shorter || !valid(cell[1]) || !valid(cell[3]));
+    const bool split_02 =
+        valid(cell[0]) && valid(cell[2]) && (first_shorter || !valid(cell[1]) || !valid(cell[3]));
     if (split_02) {
       add({cell[0], cell[1], cell[2]}, eye);
       add({cell[0], cell[2], cell[3]}, eye);

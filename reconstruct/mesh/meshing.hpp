@@ -32,8 +32,8 @@ struct GridMeshOptions {
 /// edge longer than the options allow, so none across depth edges; turned towards the sensor.
 TriangleMesh mesh_grid(const PolarScan& scan, const GridMeshOptions& options = {});
 
-/// Distance from every point to the nearest point of the mesh's surface [m]; NaN for points that are
-/// not finite. Throws Error when the mesh has no surface.
+/// Distance from every point to the nearest point of the mesh's surface [m]; NaN for points that
+/// are not finite. Throws Error when the mesh has no surface.
 std::vector<double> distances_to_mesh(const std::vector<Eigen::Vector3f>& points,
                                       const TriangleMesh& mesh);
 

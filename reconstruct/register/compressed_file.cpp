@@ -11,7 +11,6 @@
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filter/lzma.hpp>
 #include <boost/iostreams/filtering_stream.hpp>
-
 #include <stdlib.h>
 
 namespace facula {
@@ -64,7 +63,8 @@ void unpack(const std::filesystem::path& packed, const std::filesystem::path& pl
          problem.what(),
          "): it is cut short or not what its name says; copy or download it again");
   }
-  require(out.good(), "cannot unpack '", packed.string(), "' to '", plain.string(), "': disk full?");
+  require(
+      out.good(), "cannot unpack '", packed.string(), "' to '", plain.string(), "': disk full?");
 }
 
 }  // namespace

@@ -24,10 +24,10 @@ constexpr std::size_t kMinCorrespondences = 12;
 
 /// A source point and the tangent plane of the target point nearest to it.
 struct Correspondence {
-  std::size_t target = 0;        ///< index of the target point [1]
-  double distance = 0;           ///< between the two points [m]
-  double residual = 0;           ///< point to plane [m]
-  Vector6 jacobian;              ///< of the residual by a twist about the pivot [1, m]
+  std::size_t target = 0;  ///< index of the target point [1]
+  double distance = 0;     ///< between the two points [m]
+  double residual = 0;     ///< point to plane [m]
+  Vector6 jacobian;        ///< of the residual by a twist about the pivot [1, m]
 };
 
 /// The target cloud made ready for many searches.
@@ -154,9 +154,15 @@ void require_decided(const Matrix6& h, std::size_t pairs) {
           "register scans that share surfaces of three directions");
 }
 
-/// Gauss-Newton step (twist about the pivot) with Geman-McClure weights.
-Vector6 robust_step(const std::vector<Correspondence>& pairs) {
-  const double s2 = std::pow(robust_scale(pairs), 2);
+struct Step {
+  Vector6 twist;      ///< about the pivot
+  double sigmas = 0;  ///< its length in standard deviations of the pose [1]
+};
+
+/// Gauss-Newton step with Geman-McClure weights.
+Step robust_step(const std::vector<Correspondence>& pairs) {
+  const double scale = robust_scale(pairs);
+  const double s2 = scale * scale;
   Matrix6 h = Matrix6::Zero();
   Vector6 g = Vector6::Zero();
   Matrix6 unweighted = Matrix6::Zero();
@@ -167,7 +173,14 @@ Vector6 robust_step(const std::vector<Correspondence>& pairs) {
     unweighted += pair.jacobian * pair.jacobian.transpose();
   }
   require_decided(unweighted, pairs.size());
-  return -h.ldlt().solve(g);
+  const Vector6 twist = -h.ldlt().solve(g);
+  return {twist, std::sqrt(twist.dot(h * twist)) / (scale / 3)};
+}
+
+bool is_still(const Step& step, const IcpOptions& options) {
+  return step.sigmas < options.significance ||
+         (step.twist.head<3>().norm() < options.translation_epsilon &&
+          step.twist.tail<3>().norm() < options.rotation_epsilon);
 }
 
 /// A twist about `pivot` as a transform of the target frame.
@@ -244,6 +257,7 @@ void IcpOptions::check() const {
   positive(rotation_epsilon, "rotation_epsilon", " rad");
   positive(translation_epsilon, "translation_epsilon", " m");
   positive(max_normal_angle, "max_normal_angle", " rad");
+  require(significance >= 0, "significance is ", significance, "; give 0 or more");
   require(max_iterations >= 1, "max_iterations is ", max_iterations, "; give at least 1");
   require(num_threads >= 0, "num_threads is ", num_threads, "; give 0 (all cores) or more");
 }
@@ -270,11 +284,10 @@ IcpResult register_icp(const PointCloud& source,
   while (!result.converged && result.iterations < options.max_iterations) {
     const auto pairs = matcher.match(result.target_from_source, bound);
     require_overlap(pairs, source.size(), bound);
-    const Vector6 step = robust_step(pairs);
-    result.target_from_source = turn_about(target.pivot, step) * result.target_from_source;
+    const Step step = robust_step(pairs);
+    result.target_from_source = turn_about(target.pivot, step.twist) * result.target_from_source;
     ++result.iterations;
-    const bool still = step.head<3>().norm() < options.translation_epsilon &&
-                       step.tail<3>().norm() < options.rotation_epsilon;
+    const bool still = is_still(step, options);
     result.converged = still && bound <= tightest;
     const double wanted = still ? bound / 2 : 3 * median_distance(pairs);
     bound = std::clamp(wanted, tightest, bound);

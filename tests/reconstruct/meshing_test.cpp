@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "surfaces.hpp"
-
 #include <facula/reconstruct/mesh/meshing.hpp>
 #include <facula/tests/support/matchers.hpp>
 
 #include <algorithm>
 #include <limits>
 
+#include "surfaces.hpp"
 #include <gtest/gtest.h>
 
 namespace facula {
@@ -82,7 +81,7 @@ TEST(MeshAdvancingFront, BearsBadPointsAndRefusesTooFew) {
   EXPECT_NE(error_of([] { mesh_advancing_front({}); }).find("at least 4"), std::string::npos);
   PointCloud spot;
   spot.points.assign(100, Eigen::Vector3f(1, 1, 1));
-  EXPECT_TRUE(mesh_advancing_front(spot).empty());
+  EXPECT_NE(error_of([&] { mesh_advancing_front(spot); }).find("no surface"), std::string::npos);
 }
 
 /// A wall at x = `x_of(row, col)` seen from an eye beside the origin.

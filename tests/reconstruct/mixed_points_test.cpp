@@ -117,7 +117,8 @@ TEST(RemoveMixedPoints, KeepsASlantedWallBelowTheSteepestAngle) {
     }
   }
   EXPECT_EQ(remove_mixed_points(scan, {.min_jump = 0, .jump_ratio = 0}), 0U);
-  EXPECT_GT(remove_mixed_points(scan, {.max_incidence = 1.2, .min_jump = 0, .jump_ratio = 0}), 150U);
+  EXPECT_GT(remove_mixed_points(scan, {.max_incidence = 1.2, .min_jump = 0, .jump_ratio = 0}),
+            150U);
 }
 
 TEST(RemoveMixedPoints, RefusesOptionsOutOfRange) {

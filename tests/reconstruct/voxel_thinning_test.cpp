@@ -79,8 +79,7 @@ TEST(ThinByVoxel, RenormalisesNormalsAndAveragesColors) {
   cloud.colors = {{10, 20, 30}, {20, 40, 60}};
   const PointCloud thinned = thin_by_voxel(cloud, 1.0);
   ASSERT_EQ(thinned.size(), 1U);
-  EXPECT_TRUE(
-      is_near_point(thinned.normals[0].cast<double>(), {M_SQRT1_2, M_SQRT1_2, 0}, 1e-6));
+  EXPECT_TRUE(is_near_point(thinned.normals[0].cast<double>(), {M_SQRT1_2, M_SQRT1_2, 0}, 1e-6));
   EXPECT_EQ(thinned.colors[0], (Color{15, 30, 45}));
 }
 

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/random.hpp>
+#include <facula/reconstruct/filter/point_spacing.hpp>
 #include <facula/reconstruct/measure/largest_piece.hpp>
 #include <facula/reconstruct/measure/plane.hpp>
-#include <facula/reconstruct/pcl_bridge.hpp>
+#include <facula/reconstruct/measure/ransac_plane.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
-#include <numeric>
 #include <optional>
-
-#include <pcl/console/print.h>
-#include <pcl/sample_consensus/ransac.h>
-#include <pcl/sample_consensus/sac_model_plane.h>
-#include <pcl/search/kdtree.h>
 
 namespace facula {
 namespace {
@@ -25,66 +21,16 @@ constexpr std::size_t kSample = 12000;  // points among which RANSAC counts [1]
 constexpr int kRefinements = 12;
 constexpr int kFailures = 4;  // candidates too small before the search ends
 
-/// PCL prints when it finds nothing; a library does not print.
-class QuietPcl {
- public:
-  QuietPcl() : level_(pcl::console::getVerbosityLevel()) {
-    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  }
-  ~QuietPcl() { pcl::console::setVerbosityLevel(level_); }
-  QuietPcl(const QuietPcl&) = delete;
-  QuietPcl& operator=(const QuietPcl&) = delete;
-
- private:
-  pcl::console::VERBOSITY_LEVEL level_;
-};
-
-/// Up to kSample of the pool, drawn without putting back (Fisher and Yates), about their centroid.
-pcl::PointCloud<pcl::PointXYZ>::Ptr draw_sample(const PointCloud& cloud,
-                                                Indices pool,
-                                                Random& random,
-                                                Eigen::Vector3f& centre) {
+/// Up to kSample points of the pool, drawn without putting back (Fisher and Yates).
+std::vector<Eigen::Vector3f> draw_sample(const PointCloud& cloud, Indices pool, Random& random) {
   const std::size_t count = std::min(kSample, pool.size());
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3f> sample;
+  sample.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     std::swap(pool[i], pool[i + random.below(pool.size() - i)]);
-    sum += cloud.points[pool[i]].cast<double>();
+    sample.push_back(cloud.points[pool[i]]);
   }
-  centre = (sum / static_cast<double>(count)).cast<float>();
-  PointCloud sample;
-  for (std::size_t i = 0; i < count; ++i) sample.points.push_back(cloud.points[pool[i]] - centre);
-  return to_pcl(sample);
-}
-
-/// Samples are drawn within this of each other: three points of one surface, not of three.
-double sampling_radius(const pcl::PointCloud<pcl::PointXYZ>& sample, double inlier_distance) {
-  double squares = 0;
-  for (const auto& p : sample) squares += p.getVector3fMap().squaredNorm();
-  const double spread = std::sqrt(squares / static_cast<double>(sample.size()));
-  return std::max(0.3 * spread, 10 * inlier_distance);
-}
-
-std::optional<Plane> ransac_plane(const PointCloud& cloud,
-                                  const Indices& pool,
-                                  const PlaneExtractionOptions& options,
-                                  Random& random) {
-  Eigen::Vector3f centre;
-  const auto sample = draw_sample(cloud, pool, random, centre);
-  using Model = pcl::SampleConsensusModelPlane<pcl::PointXYZ>;
-  const Model::Ptr model(new Model(sample));
-  const pcl::search::KdTree<pcl::PointXYZ>::Ptr search(new pcl::search::KdTree<pcl::PointXYZ>);
-  search->setInputCloud(sample);
-  model->setSamplesMaxDist(sampling_radius(*sample, options.inlier_distance), search);
-  pcl::RandomSampleConsensus<pcl::PointXYZ> ransac(model, options.inlier_distance);
-  ransac.setMaxIterations(options.iterations);
-  ransac.setProbability(0.9999);
-  if (!ransac.computeModel()) return {};
-  Eigen::VectorXf c;
-  ransac.getModelCoefficients(c);
-  const double length = c.head<3>().cast<double>().norm();
-  if (c.size() != 4 || !(length > 0)) return {};
-  const Eigen::Vector3d normal = c.head<3>().cast<double>() / length;
-  return Plane{normal, normal.dot(centre.cast<double>()) - double(c(3)) / length};
+  return sample;
 }
 
 /// Points of the pool within `reach` of the plane whose normals agree with it.
@@ -106,9 +52,21 @@ Indices points_near(const PointCloud& cloud,
   return near;
 }
 
+/// The gap that parts of one plane may have between them.
+double gap_of(const Indices& points,
+              const std::vector<float>& spacing,
+              const PlaneExtractionOptions& options) {
+  if (options.max_gap > 0) return options.max_gap;
+  std::vector<float> here;
+  here.reserve(points.size());
+  for (const std::size_t i : points) here.push_back(spacing[i]);
+  return std::max(8 * quantile(std::move(here), 0.95), 2 * options.inlier_distance);
+}
+
 /// Gathers, keeps the largest piece and fits in turn until the plane takes in no more points.
 std::optional<ExtractedPlane> refine(const PointCloud& cloud,
                                      const Indices& pool,
+                                     const std::vector<float>& spacing,
                                      Plane plane,
                                      const PlaneExtractionOptions& options) {
   std::optional<ExtractedPlane> best;
@@ -116,8 +74,7 @@ std::optional<ExtractedPlane> refine(const PointCloud& cloud,
     const Indices near =
         points_near(cloud, pool, plane, options.inlier_distance, options.max_normal_angle);
     if (near.size() < 3) return best;
-    const double cell = connecting_cell(cloud, near, 2 * options.inlier_distance);
-    Indices piece = largest_piece(cloud, near, plane, cell);
+    Indices piece = largest_piece(cloud, near, plane, gap_of(near, spacing, options));
     if (piece.size() < 3 || (best && piece.size() <= best->indices.size())) return best;
     PlaneFit fit;
     try {
@@ -134,8 +91,7 @@ std::optional<ExtractedPlane> refine(const PointCloud& cloud,
 void remove_from(Indices& pool, const Indices& gone) {
   Indices kept;
   kept.reserve(pool.size());
-  std::set_difference(
-      pool.begin(), pool.end(), gone.begin(), gone.end(), std::back_inserter(kept));
+  std::set_difference(pool.begin(), pool.end(), gone.begin(), gone.end(), std::back_inserter(kept));
   pool = std::move(kept);
 }
 
@@ -164,6 +120,10 @@ void PlaneExtractionOptions::check() const {
   require(min_points >= 3, "min_points is ", min_points, "; a plane needs at least 3");
   require(max_planes >= 1, "max_planes is ", max_planes, "; give at least 1");
   require(iterations >= 1, "iterations is ", iterations, "; give at least 1");
+  require(max_gap >= 0 && std::isfinite(max_gap),
+          "max_gap is ",
+          max_gap,
+          " m; give a length, or 0 to take it from the points");
   require(max_normal_angle > 0 && max_normal_angle <= std::numbers::pi / 2,
           "max_normal_angle is ",
           max_normal_angle,
@@ -174,18 +134,19 @@ std::vector<ExtractedPlane> extract_planes(const PointCloud& cloud,
                                            const PlaneExtractionOptions& options) {
   options.check();
   cloud.check();
-  const QuietPcl quiet;
   Indices pool;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (cloud.points[i].allFinite()) pool.push_back(i);
   }
+  const std::vector<float> spacing = point_spacing(cloud.points);
   Random random(options.seed);
   std::vector<ExtractedPlane> planes;
   int failures = 0;
   while (planes.size() < static_cast<std::size_t>(options.max_planes) && failures < kFailures &&
          pool.size() >= options.min_points) {
-    const auto candidate = ransac_plane(cloud, pool, options, random);
-    auto plane = candidate ? refine(cloud, pool, *candidate, options) : std::nullopt;
+    const auto candidate = ransac_plane(
+        draw_sample(cloud, pool, random), {options.inlier_distance, options.iterations}, random);
+    auto plane = candidate ? refine(cloud, pool, spacing, *candidate, options) : std::nullopt;
     if (!plane) {
       ++failures;
     } else if (plane->indices.size() < options.min_points) {
