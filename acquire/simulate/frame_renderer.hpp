@@ -3,13 +3,10 @@
 
 #include <facula/acquire/core/image_view.hpp>
 #include <facula/acquire/simulate/laser_fan.hpp>
+#include <facula/acquire/simulate/ray_table.hpp>
 #include <facula/acquire/simulate/simulate.hpp>
 
 #include <cstdint>
-#include <vector>
-
-#include <Eigen/Core>
-
 namespace facula {
 
 /// Renders the frames of one head: keeps the camera's table of rays between frames. Calls may run
@@ -29,11 +26,8 @@ class FrameRenderer {
 
   const Scene& scene_;
   const SimulateOptions& options_;
-  int width_ = 0;
-  int height_ = 0;
   LaserFan fan_;
-  std::vector<Eigen::Vector2d> centre_ray_;  ///< z = 1, per pixel; NaN where there is no ray
-  std::vector<Eigen::Vector2d> corner_ray_;  ///< z = 1, per pixel corner, width + 1 a row
+  RayTable rays_;
 };
 
 }  // namespace facula

@@ -31,6 +31,8 @@ double LaserFan::signal(const Eigen::Vector3d& x, const Eigen::Vector3d& surface
 }
 
 LaserFan laser_fan(const Rig& rig, const SimulateOptions& options) {
+  rig.check();
+  options.check();
   require(options.laser < rig.lasers.size(),
           "the rig has ",
           rig.lasers.size(),

@@ -35,7 +35,8 @@ struct LaserFan {
   double signal(const Eigen::Vector3d& x, const Eigen::Vector3d& surface_normal) const;
 };
 
-/// The fan of the sheet that is lit. Throws Error when the rig has no such sheet.
+/// The fan of the sheet that is lit. Checks rig and options; throws Error when the rig has no such
+/// sheet.
 LaserFan laser_fan(const Rig& rig, const SimulateOptions& options);
 
 }  // namespace facula

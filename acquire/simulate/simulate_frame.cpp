@@ -31,6 +31,7 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/random.hpp>
 #include <facula/acquire/simulate/frame_renderer.hpp>
+#include <facula/acquire/simulate/shape_geometry.hpp>
 
 #include <algorithm>
 #include <array>
@@ -57,7 +58,6 @@ struct Surface {
   int object = -1;  // -1: nothing
   Vector3d x = Vector3d::Zero();
   Vector3d normal = Vector3d::Zero();
-  double sheet = 0;          // signed distance from the sheet [m]
   double low = kInfinity;    // sheet -+ the reach of the light: the sheet shines here
   double high = -kInfinity;  // when low <= 0 <= high [m]
   Light light = Light::kUnknown;
@@ -66,6 +66,15 @@ struct Surface {
 bool same_plane(const Surface& a, const Surface& b) {
   return a.object == b.object && (a.normal - b.normal).squaredNorm() < 1e-20 &&
          std::abs(a.normal.dot(a.x - b.x)) < 1e-9;
+}
+
+// Whether both lie on one smooth face of one object; its edges turn the normal by more.
+bool same_bend(const Surface& a, const Surface& b) {
+  return a.object == b.object && a.normal.dot(b.normal) > 0.9;
+}
+
+bool in_reach(const Surface& s) {
+  return s.low <= 0 && s.high >= 0;
 }
 
 // Whether the pixels between two others may be taken from the plane that both lie on: not near the
@@ -77,11 +86,6 @@ bool same_plane_off_sheet(const Surface& a, const Surface& b) {
   return (left || right) && same_plane(a, b);
 }
 
-// 1 + 1/2, 1 + 3/2, ... of `count` cells: the middle of sub-pixel i as a share of the pixel.
-double sub_pixel(int i, int count) {
-  return (i + 0.5) / count;
-}
-
 }  // namespace
 
 // One frame. Rows of surfaces are kept in a ring of four: shading row r looks at r - 1 to r + 1,
@@ -90,20 +94,25 @@ class FrameRenderer::Pass {
  public:
   Pass(const FrameRenderer& head, const RigidTransform& world_from_camera, bool laser_on)
       : head_(head),
+        width_(head.rays_.width()),
+        height_(head.rays_.height()),
         world_from_camera_(world_from_camera.rotation.toRotationMatrix()),
         camera_in_world_(world_from_camera.translation),
         laser_in_world_(world_from_camera * head.fan_.origin),
         laser_on_(laser_on),
-        column_low_(static_cast<std::size_t>(head.width_)),
-        column_high_(static_cast<std::size_t>(head.width_)) {
-    for (auto& row : ring_) row.resize(static_cast<std::size_t>(head.width_));
+        column_low_(static_cast<std::size_t>(width_)),
+        column_high_(static_cast<std::size_t>(width_)) {
+    for (auto& row : ring_) row.resize(static_cast<std::size_t>(width_));
+    for (const SceneObject& object : head.scene_.objects()) {
+      object_from_camera_.push_back(object.world_from_object.inverse() * world_from_camera);
+    }
   }
 
   // Signal of the next row, from the top.
   void shade_row(int r, double* signal) {
-    while (traced_ <= std::min(r + 1, head_.height_ - 1)) trace_next_rows();
-    find_reach(r);
-    for (int c = 0; c < head_.width_; ++c) signal[c] = shade_pixel(r, c);
+    while (traced_ <= std::min(r + 1, height_ - 1)) trace_next_rows();
+    if (laser_on_) find_reach(r);
+    for (int c = 0; c < width_; ++c) signal[c] = shade_pixel(r, c);
   }
 
  private:
@@ -116,9 +125,9 @@ class FrameRenderer::Pass {
     result.x = x;
     result.normal = normal;
     const double reach = kReach * head_.fan_.half_width((x - head_.fan_.origin).norm());
-    result.sheet = head_.fan_.sheet_distance(x);
-    result.low = result.sheet - reach;
-    result.high = result.sheet + reach;
+    const double sheet = head_.fan_.sheet_distance(x);
+    result.low = sheet - reach;
+    result.high = sheet + reach;
     return result;
   }
 
@@ -139,18 +148,28 @@ class FrameRenderer::Pass {
     return surface_at(depth * direction, plane.normal, plane.object);
   }
 
-  const Vector2d& centre_ray(int r, int c) const {
-    return head_.centre_ray_[static_cast<std::size_t>(r * head_.width_ + c)];
+  // The same for a ray that is known to meet this convex object first.
+  Surface cast_on(int object, const Vector2d& ray) const {
+    const RigidTransform& object_from_camera =
+        object_from_camera_[static_cast<std::size_t>(object)];
+    const Vector3d direction = Vector3d(ray.x(), ray.y(), 1).normalized();
+    const auto hit = intersect_shape(head_.scene_.objects()[static_cast<std::size_t>(object)].shape,
+                                     object_from_camera.translation,
+                                     object_from_camera.rotation * direction,
+                                     0.0);
+    if (!hit) return {};
+    const Vector3d normal = object_from_camera.rotation.conjugate() * hit->normal;
+    return surface_at(
+        hit->distance * direction, normal.dot(direction) > 0 ? Vector3d(-normal) : normal, object);
   }
 
   // An even row by itself; an odd row together with the one below it, which it is drawn from.
   void trace_next_rows() {
     const int r = traced_;
-    const bool between = r % 2 == 1 && r + 1 < head_.height_;
+    const bool between = r % 2 == 1 && r + 1 < height_;
     if (between) trace_alone(r + 1);
     if (between) {
-      for (int c = 0; c < head_.width_; ++c)
-        at(r, c) = trace_between(at(r - 1, c), at(r + 1, c), r, c);
+      for (int c = 0; c < width_; ++c) at(r, c) = trace_between(at(r - 1, c), at(r + 1, c), r, c);
     } else {
       trace_alone(r);
     }
@@ -158,22 +177,28 @@ class FrameRenderer::Pass {
   }
 
   void trace_alone(int r) {
-    for (int c = 0; c < head_.width_; c += 2) at(r, c) = cast(centre_ray(r, c));
-    for (int c = 1; c < head_.width_; c += 2) {
-      at(r, c) = c + 1 < head_.width_ ? trace_between(at(r, c - 1), at(r, c + 1), r, c)
-                                      : cast(centre_ray(r, c));
+    for (int c = 0; c < width_; c += 2) at(r, c) = cast(head_.rays_.centre(r, c));
+    for (int c = 1; c < width_; c += 2) {
+      at(r, c) = c + 1 < width_ ? trace_between(at(r, c - 1), at(r, c + 1), r, c)
+                                : cast(head_.rays_.centre(r, c));
     }
   }
 
+  // A pixel between two others on one plane is taken to show the same plane, one ray saved. Its
+  // spot is left where a's is: off the sheet only the plane and the side of the sheet are asked
+  // for.
   Surface trace_between(const Surface& a, const Surface& b, int r, int c) const {
-    return same_plane_off_sheet(a, b) ? on_plane(a, centre_ray(r, c)) : cast(centre_ray(r, c));
+    if (!same_plane_off_sheet(a, b)) return cast(head_.rays_.centre(r, c));
+    Surface between = a;
+    between.light = Light::kUnknown;
+    return between;
   }
 
   // Per column the span of the sheet's distance over rows r - 1 to r + 1.
   void find_reach(int r) {
     std::fill(column_low_.begin(), column_low_.end(), kInfinity);
     std::fill(column_high_.begin(), column_high_.end(), -kInfinity);
-    for (int y = std::max(r - 1, 0); y <= std::min(r + 1, head_.height_ - 1); ++y) {
+    for (int y = std::max(r - 1, 0); y <= std::min(r + 1, height_ - 1); ++y) {
       const std::vector<Surface>& surfaces = row(y);
       for (std::size_t c = 0; c < surfaces.size(); ++c) {
         column_low_[c] = std::min(column_low_[c], surfaces[c].low);
@@ -187,7 +212,7 @@ class FrameRenderer::Pass {
   bool near_sheet(int c) const {
     double low = kInfinity;
     double high = -kInfinity;
-    for (int x = std::max(c - 1, 0); x <= std::min(c + 1, head_.width_ - 1); ++x) {
+    for (int x = std::max(c - 1, 0); x <= std::min(c + 1, width_ - 1); ++x) {
       low = std::min(low, column_low_[static_cast<std::size_t>(x)]);
       high = std::max(high, column_high_[static_cast<std::size_t>(x)]);
     }
@@ -198,46 +223,57 @@ class FrameRenderer::Pass {
     if (laser_on_ && near_sheet(c)) return shade_near_sheet(r, c);
     const Surface& centre = at(r, c);
     const bool edge = (c > 0 && at(r, c - 1).object != centre.object) ||
-                      (c + 1 < head_.width_ && at(r, c + 1).object != centre.object) ||
+                      (c + 1 < width_ && at(r, c + 1).object != centre.object) ||
                       (r > 0 && at(r - 1, c).object != centre.object) ||
-                      (r + 1 < head_.height_ && at(r + 1, c).object != centre.object);
+                      (r + 1 < height_ && at(r + 1, c).object != centre.object);
     if (!edge) return ambient_of(centre);
     double sum = 0;
     for (int i = 0; i < kEdgeGrid * kEdgeGrid; ++i) {
-      sum += ambient_of(cast(sub_ray(r, c, i, kEdgeGrid)));
+      sum += ambient_of(cast(head_.rays_.within(r, c, i, kEdgeGrid)));
     }
     return sum / (kEdgeGrid * kEdgeGrid);
   }
 
   double shade_near_sheet(int r, int c) {
+    const Surface& centre = at(r, c);
     const bool plane =
-        neighbours_all(r, c, [&](const Surface& s) { return same_plane(s, at(r, c)); });
-    const Light light = plane ? common_light(r, c) : Light::kUnknown;
+        neighbours_all(r, c, [&](const Surface& s) { return same_plane(s, centre); });
+    const bool bend = !plane && is_convex(centre) &&
+                      neighbours_all(r, c, [&](const Surface& s) { return same_bend(s, centre); });
+    const Light light = plane || bend ? common_light(r, c) : Light::kUnknown;
     double sum = 0;
     for (int i = 0; i < kLaserGrid * kLaserGrid; ++i) {
-      const Vector2d ray = sub_ray(r, c, i, kLaserGrid);
-      Surface spot = plane ? on_plane(at(r, c), ray) : cast(ray);
+      const Vector2d ray = head_.rays_.within(r, c, i, kLaserGrid);
+      Surface spot = plane ? on_plane(centre, ray) : bend ? cast_on(centre.object, ray) : cast(ray);
       spot.light = light;
       sum += ambient_of(spot) + laser_signal(spot);
     }
     return sum / (kLaserGrid * kLaserGrid);
   }
 
+  bool is_convex(const Surface& s) const {
+    return s.object >= 0 && !std::holds_alternative<MeshShape>(
+                                head_.scene_.objects()[static_cast<std::size_t>(s.object)].shape);
+  }
+
   template <typename Predicate>
   bool neighbours_all(int r, int c, const Predicate& holds) {
-    for (int y = std::max(r - 1, 0); y <= std::min(r + 1, head_.height_ - 1); ++y) {
-      for (int x = std::max(c - 1, 0); x <= std::min(c + 1, head_.width_ - 1); ++x) {
+    for (int y = std::max(r - 1, 0); y <= std::min(r + 1, height_ - 1); ++y) {
+      for (int x = std::max(c - 1, 0); x <= std::min(c + 1, width_ - 1); ++x) {
         if (!holds(at(y, x))) return false;
       }
     }
     return true;
   }
 
-  // Whether the pixel and its neighbours all see the laser or all do not; unknown when they differ.
+  // Whether the pixel and its neighbours in the light's reach all see the laser or all do not;
+  // unknown when they differ.
   Light common_light(int r, int c) {
-    const Light light = light_at(at(r, c));
-    const bool same = neighbours_all(r, c, [&](Surface& s) { return light_at(s) == light; });
-    return same ? light : Light::kUnknown;
+    Surface& centre = at(r, c);
+    if (!in_reach(centre)) return Light::kUnknown;
+    const Light light = light_at(centre);
+    const auto agrees = [&](Surface& s) { return !in_reach(s) || light_at(s) == light; };
+    return neighbours_all(r, c, agrees) ? light : Light::kUnknown;
   }
 
   Light light_at(Surface& spot) const {
@@ -254,7 +290,7 @@ class FrameRenderer::Pass {
   }
 
   double laser_signal(Surface& spot) const {
-    if (spot.object < 0 || spot.low > 0 || spot.high < 0) return 0;
+    if (spot.object < 0 || !in_reach(spot)) return 0;
     const double signal = albedo_of(spot) * head_.fan_.signal(spot.x, spot.normal);
     return signal > 0 && light_at(spot) == Light::kFree ? signal : 0.0;
   }
@@ -263,22 +299,14 @@ class FrameRenderer::Pass {
     return head_.scene_.objects()[static_cast<std::size_t>(spot.object)].albedo;
   }
 
-  // Ray through the middle of sub-pixel i, bilinear between the rays of the pixel's corners: the
-  // distortion bends less than 0.001 px within a pixel.
-  Vector2d sub_ray(int r, int c, int i, int grid) const {
-    const double v = sub_pixel(i / grid, grid);
-    const double u = sub_pixel(i % grid, grid);
-    const std::size_t corner = static_cast<std::size_t>(r * (head_.width_ + 1) + c);
-    const Vector2d* above = &head_.corner_ray_[corner];
-    const Vector2d* below = above + head_.width_ + 1;
-    return (1 - v) * ((1 - u) * above[0] + u * above[1]) + v * ((1 - u) * below[0] + u * below[1]);
-  }
-
   const FrameRenderer& head_;
+  int width_;
+  int height_;
   Eigen::Matrix3d world_from_camera_;  // rotation
   Vector3d camera_in_world_;
   Vector3d laser_in_world_;
   bool laser_on_;
+  std::vector<RigidTransform> object_from_camera_;
   int traced_ = 0;  // rows above this one are traced
   std::array<std::vector<Surface>, 4> ring_;
   std::vector<double> column_low_;
@@ -287,54 +315,36 @@ class FrameRenderer::Pass {
 
 namespace {
 
-// Rays through a grid of pixel positions that starts at `first` in both directions.
-std::vector<Vector2d> ray_table(const Camera& camera, double first, int cols, int rows) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Vector2d> rays;
-  rays.reserve(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < cols; ++c) {
-      rays.push_back(camera.undistort({c + first, r + first}).value_or(Vector2d(nan, nan)));
-    }
-  }
-  return rays;
-}
-
 std::uint8_t digitised(double value) {
-  return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
+  return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0) + 0.5);
 }
 
 }  // namespace
 
 FrameRenderer::FrameRenderer(const Scene& scene, const Rig& rig, const SimulateOptions& options)
-    : scene_(scene), options_(options), width_(rig.camera.width), height_(rig.camera.height) {
-  options.check();
-  rig.check();
-  fan_ = laser_fan(rig, options);
-  centre_ray_ = ray_table(rig.camera, 0.0, width_, height_);
-  corner_ray_ = ray_table(rig.camera, -0.5, width_ + 1, height_ + 1);
-}
+    : scene_(scene), options_(options), fan_(laser_fan(rig, options)), rays_(rig.camera) {}
 
 Image<double> FrameRenderer::expected_signal(const RigidTransform& world_from_camera,
                                              bool laser_on) const {
-  Image<double> image(height_, width_);
+  Image<double> image(rays_.height(), rays_.width());
   Pass pass(*this, world_from_camera, laser_on);
-  for (int r = 0; r < height_; ++r) pass.shade_row(r, image.row(r));
+  for (int r = 0; r < rays_.height(); ++r) pass.shade_row(r, image.row(r));
   return image;
 }
 
 Image8 FrameRenderer::render(const RigidTransform& world_from_camera,
                              bool laser_on,
                              std::uint64_t frame) const {
-  Image8 image(height_, width_);
+  Image8 image(rays_.height(), rays_.width());
   Pass pass(*this, world_from_camera, laser_on);
-  std::vector<double> signal(static_cast<std::size_t>(width_));
+  std::vector<double> signal(static_cast<std::size_t>(rays_.width()));
   const double read_variance = options_.read_noise * options_.read_noise;
-  for (int r = 0; r < height_; ++r) {
+  for (int r = 0; r < rays_.height(); ++r) {
     pass.shade_row(r, signal.data());
     const std::uint64_t exposure = 2 * frame + (laser_on ? 1 : 0);
-    Random random(options_.seed,
-                  exposure * static_cast<std::uint64_t>(height_) + static_cast<std::uint64_t>(r));
+    Random random(
+        options_.seed,
+        exposure * static_cast<std::uint64_t>(rays_.height()) + static_cast<std::uint64_t>(r));
     std::uint8_t* out = image.row(r);
     for (const double expected : signal) {
       const double noise = std::sqrt(read_variance + options_.shot_noise * expected);

@@ -157,8 +157,6 @@ PolarScan true_scan(const Scene& scene,
                     const RigidTransform& world_from_scan,
                     const std::vector<double>& positions,
                     const SimulateOptions& options) {
-  options.check();
-  rig.check();
   const LaserFan fan = laser_fan(rig, options);
   const SheetTracer blank(scene, rig, fan);
   PolarScan scan =
