@@ -27,22 +27,6 @@ constexpr std::array<std::pair<const char*, const char*>, 16> kUnits{{{"mm", "mm
                                                                       {"ppm", "ppm"},
                                                                       {"fps", "1/s"}}};
 
-std::string printed(const FigureValue& value, int decimals) {
-  struct Printer {
-    int decimals;
-    std::string operator()(double x) const { return fixed_text(x, decimals); }
-    std::string operator()(long long x) const { return std::to_string(x); }
-    std::string operator()(bool x) const { return x ? "yes" : "no"; }
-    std::string operator()(const std::string& x) const { return x; }
-    std::string operator()(const std::vector<double>& x) const {
-      std::string all;
-      for (const double one : x) all += (all.empty() ? "" : " ") + fixed_text(one, decimals);
-      return all;
-    }
-  };
-  return std::visit(Printer{decimals}, value);
-}
-
 bool is_numeric(const FigureValue& value) {
   return std::holds_alternative<double>(value) || std::holds_alternative<long long>(value);
 }
@@ -68,11 +52,6 @@ void write_figures(std::ostream& out, const std::vector<Figure>& figures) {
         << (numeric ? padded(value, value_width, true) : value) << (unit.empty() ? "" : " ") << unit
         << '\n';
   }
-}
-
-std::string heading(const FigureTable::Column& column) {
-  const std::string unit = unit_of_key(column.key);
-  return unit.empty() ? column.label : column.label + " [" + unit + "]";
 }
 
 void write_table(std::ostream& out, const FigureTable& table) {
@@ -102,6 +81,27 @@ void write_table(std::ostream& out, const FigureTable& table) {
 }
 
 }  // namespace
+
+std::string printed(const FigureValue& value, int decimals) {
+  struct Printer {
+    int decimals;
+    std::string operator()(double x) const { return fixed_text(x, decimals); }
+    std::string operator()(long long x) const { return std::to_string(x); }
+    std::string operator()(bool x) const { return x ? "yes" : "no"; }
+    std::string operator()(const std::string& x) const { return x; }
+    std::string operator()(const std::vector<double>& x) const {
+      std::string all;
+      for (const double one : x) all += (all.empty() ? "" : " ") + fixed_text(one, decimals);
+      return all;
+    }
+  };
+  return std::visit(Printer{decimals}, value);
+}
+
+std::string heading(const FigureTable::Column& column) {
+  const std::string unit = unit_of_key(column.key);
+  return unit.empty() ? column.label : column.label + " [" + unit + "]";
+}
 
 std::string unit_of_key(const std::string& key) {
   const std::string suffix = key.substr(key.rfind('_') + 1);

@@ -57,21 +57,29 @@ class Figures {
   std::string text() const;
   std::string json() const;
 
-  /// Label and value with unit of the figures that stand in no table and no part.
-  std::vector<std::pair<std::string, std::string>> lines() const;
-
- private:
-  friend struct FiguresJson;
+  /// A part and its heading.
   struct Part {
     std::string key;
     std::string title;
     std::unique_ptr<Figures> figures;
   };
+  const std::vector<Part>& parts() const { return parts_; }
+  const std::vector<FigureTable>& tables() const { return tables_; }
+
+  /// Label and value with unit of the figures that stand in no table and no part.
+  std::vector<std::pair<std::string, std::string>> lines() const;
+
+ private:
+  friend struct FiguresJson;
   std::vector<Figure> figures_;
   std::vector<FigureTable> tables_;
   std::vector<Part> parts_;
   std::vector<std::string> notes_;
 };
+
+/// A heading with its unit, "rms [mm]", and a value as text() prints it.
+std::string heading(const FigureTable::Column& column);
+std::string printed(const FigureValue& value, int decimals);
 
 /// The unit at the end of a key, as people write it: "rms_mm" gives "mm"; empty when none.
 std::string unit_of_key(const std::string& key);

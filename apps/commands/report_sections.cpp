@@ -68,6 +68,23 @@ ReportTable figure_table(const std::string& caption, const Figures& figures) {
   return table;
 }
 
+std::vector<ReportTable> report_tables(const std::string& caption, const Figures& figures) {
+  std::vector<ReportTable> tables;
+  for (const FigureTable& source : figures.tables()) {
+    ReportTable table{source.title.empty() ? caption : source.title, {}, {}};
+    for (const auto& column : source.columns) table.columns.push_back(heading(column));
+    for (const auto& row : source.rows) {
+      std::vector<std::string> cells;
+      for (std::size_t c = 0; c < row.size(); ++c) {
+        cells.push_back(printed(row[c], source.columns[c].decimals));
+      }
+      table.rows.push_back(cells);
+    }
+    tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
 ReportSection capture_section(const Capture& capture) {
   ReportSection section;
   section.heading = "Capture " + capture.file.parent_path().filename().string();

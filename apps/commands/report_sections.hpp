@@ -46,4 +46,7 @@ ReportSection grid_section(const std::string& name,
 /// A line per figure: name, value, unit.
 ReportTable figure_table(const std::string& caption, const Figures& figures);
 
+/// The tables among the figures.
+std::vector<ReportTable> report_tables(const std::string& caption, const Figures& figures);
+
 }  // namespace facula

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/random.hpp>
+#include <facula/apps/cli/arguments.hpp>
+#include <facula/apps/commands/demo/pose_error.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace facula {
+namespace {
+
+Eigen::Vector3d random_direction(Random& random) {
+  Eigen::Vector3d direction(random.normal(), random.normal(), random.normal());
+  return direction.normalized();
+}
+
+double distance_mm(const RigidTransform& a, const RigidTransform& b) {
+  return 1000 * (a.translation - b.translation).norm();
+}
+
+double angle_deg(const RigidTransform& a, const RigidTransform& b) {
+  return rotation_angle(a.inverse() * b) / kDegrees.factor;
+}
+
+}  // namespace
+
+RigidTransform rough_pose(const RigidTransform& world_from_scan,
+                          std::uint64_t scan,
+                          const DemoSettings& settings) {
+  Random random(settings.seed, 1000 + scan);
+  const Eigen::Vector3d shift = settings.start_distance * random_direction(random);
+  const Eigen::AngleAxisd turn(settings.start_angle, random_direction(random));
+  return {Eigen::Quaterniond(turn) * world_from_scan.rotation, world_from_scan.translation + shift};
+}
+
+void report_pose_errors(const std::vector<RecordedScan>& scans,
+                        const ScanProject& registered,
+                        const std::vector<IcpResult>& results,
+                        Figures& figures) {
+  FigureTable table{"poses",
+                    "",
+                    {{"name", "scan", 0},
+                     {"start_error_mm", "before", 2},
+                     {"start_error_deg", "before", 4},
+                     {"pose_error_mm", "error", 3},
+                     {"pose_error_deg", "error", 5},
+                     {"rms_mm", "rms", 3},
+                     {"overlap_percent", "overlap", 1},
+                     {"iterations", "steps", 0}},
+                    {}};
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const RigidTransform& truth = scans[i + 1].true_world_from_scan;
+    const RigidTransform& start = scans[i + 1].extracted.scan.world_from_scan;
+    const RigidTransform& found = registered.scans[i + 1].world_from_scan;
+    table.rows.push_back({scans[i + 1].name,
+                          distance_mm(start, truth),
+                          angle_deg(start, truth),
+                          distance_mm(found, truth),
+                          angle_deg(found, truth),
+                          1000 * results[i].rms,
+                          100 * results[i].overlap,
+                          static_cast<long long>(results[i].iterations)});
+  }
+  figures.table(std::move(table));
+}
+
+}  // namespace facula
