@@ -2,11 +2,11 @@
 #include <facula/reconstruct/filter/normals.hpp>
 #include <facula/reconstruct/register/icp.hpp>
 #include <facula/reconstruct/register/register_project.hpp>
+#include <facula/tests/reconstruct/surfaces.hpp>
 #include <facula/tests/support/matchers.hpp>
 
 #include <limits>
 
-#include "surfaces.hpp"
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 

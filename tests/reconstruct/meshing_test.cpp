@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/reconstruct/mesh/meshing.hpp>
+#include <facula/tests/reconstruct/surfaces.hpp>
 #include <facula/tests/support/matchers.hpp>
 
 #include <algorithm>
 #include <limits>
 
-#include "surfaces.hpp"
 #include <gtest/gtest.h>
 
 namespace facula {

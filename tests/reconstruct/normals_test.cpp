@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/reconstruct/filter/normals.hpp>
+#include <facula/tests/reconstruct/surfaces.hpp>
 #include <facula/tests/support/matchers.hpp>
 
 #include <algorithm>
 
-#include "surfaces.hpp"
 #include <gtest/gtest.h>
 
 namespace facula {

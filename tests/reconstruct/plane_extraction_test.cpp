@@ -2,13 +2,13 @@
 #include <facula/acquire/core/cloud_file.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
 #include <facula/reconstruct/measure/plane.hpp>
+#include <facula/tests/reconstruct/surfaces.hpp>
 #include <facula/tests/support/matchers.hpp>
 #include <facula/tests/support/real_data.hpp>
 
 #include <algorithm>
 #include <set>
 
-#include "surfaces.hpp"
 #include <gtest/gtest.h>
 
 namespace facula {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/cloud_file.hpp>
 #include <facula/reconstruct/measure/plane.hpp>
+#include <facula/tests/reconstruct/surfaces.hpp>
 #include <facula/tests/support/matchers.hpp>
 #include <facula/tests/support/real_data.hpp>
 
 #include <limits>
 
-#include "surfaces.hpp"
 #include <gtest/gtest.h>
 
 namespace facula {

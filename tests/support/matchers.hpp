@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <gtest/gtest.h>
+#include <facula/acquire/core/rigid_transform.hpp>
 
 #include <functional>
 #include <string>
 
-#include <facula/acquire/core/rigid_transform.hpp>
+#include <gtest/gtest.h>
 
 namespace facula {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstdlib>
 #include <facula/tests/support/real_data.hpp>
+
+#include <cstdlib>
 
 namespace facula {
 

@@ -17,7 +17,7 @@ std::filesystem::path shipped_data(const std::string& name);
 }  // namespace facula
 
 /// Skips the test by name where the set is not on this machine; otherwise defines `variable`.
-#define FACULA_REQUIRE_REAL_DATA(variable, set)                                    \
-  const auto variable##_found = facula::real_data(set);                            \
+#define FACULA_REQUIRE_REAL_DATA(variable, set)                                       \
+  const auto variable##_found = facula::real_data(set);                               \
   if (!variable##_found) GTEST_SKIP() << "real data set '" << (set) << "' is absent"; \
   const std::filesystem::path variable = variable##_found.value_or(std::filesystem::path())

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstdlib>
-#include <fstream>
-
 #include <facula/acquire/core/error.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
+
+#include <cstdlib>
+#include <fstream>
 
 namespace facula {
 
