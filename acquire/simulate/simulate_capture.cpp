@@ -142,6 +142,7 @@ void simulate_capture(const std::filesystem::path& folder,
   if (options.background_frames) prepare_folder(folder / "background");
   const std::vector<double> positions = travelled(run.positions, options);
   std::vector<RigidTransform> world_from_camera;
+  world_from_camera.reserve(positions.size());
   for (const double position : positions) {
     world_from_camera.push_back(run.world_from_scan * rig.axis.scan_from_camera_at(position));
   }

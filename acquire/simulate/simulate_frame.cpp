@@ -316,7 +316,7 @@ class FrameRenderer::Pass {
 namespace {
 
 std::uint8_t digitised(double value) {
-  return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0) + 0.5);
+  return static_cast<std::uint8_t>(std::floor(std::clamp(value, 0.0, 255.0) + 0.5));
 }
 
 }  // namespace

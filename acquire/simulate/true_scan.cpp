@@ -113,7 +113,7 @@ class SheetTracer {
     if (std::abs(error_b) < kRowTolerance) return b;
     for (int i = 0; i < 100; ++i) {
       const double share = i % 8 == 7 ? 0.5 : error_a / (error_a - error_b);
-      const std::optional<FanHit> middle = shoot(a.angle + share * (b.angle - a.angle));
+      std::optional<FanHit> middle = shoot(a.angle + share * (b.angle - a.angle));
       if (!middle) return std::nullopt;
       const double error = middle->row - row;
       if (std::abs(error) < kRowTolerance) return middle;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/rig/rig_file.hpp>
 #include <facula/acquire/simulate/frame_renderer.hpp>
 #include <facula/tests/acquire/simulate/small_head.hpp>
 #include <facula/tests/support/matchers.hpp>
+#include <facula/tests/support/real_data.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -234,6 +236,50 @@ TEST(SimulateFrame, AmbientLightIsTheSameFromEveryPose) {
     for (const double signal : renderer.expected_signal(pose, false).pixels) {
       ASSERT_NEAR(signal, 0.6 * 50, 1e-9);
     }
+  }
+}
+
+// A turntable's object turned by hand under a still head, against the head moved about the object.
+TEST(SimulateFrame, TurntableFrameShowsTheTurnedObject) {
+  Rig rig = read_rig(shipped_data("rigs/ciclop_turntable.toml"));
+  rig.camera.width = 320;
+  rig.camera.height = 240;
+  rig.camera.fx = rig.camera.fy = 360;
+  rig.camera.cx = 160;
+  rig.camera.cy = 120;
+  const SimulateOptions options = options_for(rig);
+  const double angle = 0.8;
+  const Scene still = read_scene(shipped_data("scenes/turntable_object.toml"));
+  std::vector<SceneObject> objects = still.objects();
+  RigidTransform turn;
+  turn.rotation = Eigen::AngleAxisd(angle, Vector3d::UnitZ());
+  for (SceneObject& object : objects) object.world_from_object = turn * object.world_from_object;
+  const Scene turned = scene_with(objects);
+  const Image<double> moved_head =
+      FrameRenderer(still, rig, options).expected_signal(rig.axis.scan_from_camera_at(angle), true);
+  const Image<double> turned_object =
+      FrameRenderer(turned, rig, options).expected_signal(rig.axis.scan_from_camera_at(0), true);
+  std::size_t different = 0;  // but for rays that graze an edge
+  for (std::size_t i = 0; i < moved_head.pixels.size(); ++i) {
+    different += std::abs(moved_head.pixels[i] - turned_object.pixels[i]) > 1e-3 ? 1 : 0;
+  }
+  EXPECT_LT(different, 10U);
+  EXPECT_GT(*std::max_element(moved_head.pixels.begin(), moved_head.pixels.end()), 100);
+}
+
+TEST(SimulateFrame, WallOfTrianglesShowsWhatAWallOfClosedFormShows) {
+  const Rig rig = small_head();
+  SimulateOptions options = quiet_options(rig);
+  options.ambient = 10;
+  SceneObject triangles = box_at({0, 0, 2}, {1, 1, 1});
+  MeshShape wall;
+  wall.mesh.vertices = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}};
+  wall.mesh.triangles = {{0, 2, 1}, {0, 3, 2}};
+  triangles.shape = wall;
+  const Image<double> mesh = clean_image({triangles}, rig, options);
+  const Image<double> box = clean_image({wall_at(2)}, rig, options);
+  for (std::size_t i = 0; i < mesh.pixels.size(); ++i) {
+    ASSERT_NEAR(mesh.pixels[i], box.pixels[i], 1e-9);
   }
 }
 
