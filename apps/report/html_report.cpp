@@ -66,10 +66,16 @@ std::string row_html(const std::vector<std::string>& cells,
                      const std::vector<bool>& figures,
                      const std::string& tag) {
   std::string html = "<tr>";
+  const std::string scope = tag == "th" ? " scope=\"col\"" : "";
   for (std::size_t col = 0; col < cells.size(); ++col) {
-    html += "<" + tag + (tag == "th" ? " scope=\"col\"" : "") +
-            (figures[col] ? " class=\"figure\">" : ">") + html_escaped(cells[col]) + "</" + tag +
-            ">";
+    html += '<';
+    html += tag;
+    html += scope;
+    html += figures[col] ? " class=\"figure\">" : ">";
+    html += html_escaped(cells[col]);
+    html += "</";
+    html += tag;
+    html += '>';
   }
   return html + "</tr>\n";
 }

@@ -7,12 +7,12 @@ const char* const kReportStyle = R"css(
 :root {
   color-scheme: light dark;
   --page: #ffffff; --ink: #1f242c; --soft: #5b6472; --line: #d9dde3; --faint: #f4f6f8;
-  --accent: #1c5f8a; --plate: #ffffff;
+  --accent: #1c5f8a; --plate: #ffffff; --dimmed: none;
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --page: #15181d; --ink: #e4e7ec; --soft: #9aa4b2; --line: #333a44; --faint: #1d2128;
-    --accent: #7cc0ea; --plate: #f3f4f6;
+    --accent: #7cc0ea; --plate: #ffffff; --dimmed: brightness(.88);
   }
 }
 * { box-sizing: border-box; }
@@ -44,7 +44,7 @@ nav ol { margin: 0 0 1rem; padding-left: 1.4rem; columns: 18rem; }
 a { color: var(--accent); text-underline-offset: .15em; }
 figure { margin: 1.6rem 0; break-inside: avoid; }
 figure img { display: block; max-width: 100%; height: auto; padding: .75rem; background: var(--plate);
-  border: 1px solid var(--line); border-radius: 4px; }
+  border: 1px solid var(--line); border-radius: 4px; filter: var(--dimmed); }
 figcaption, caption { color: var(--soft); font-size: .92rem; line-height: 1.45; text-align: left; }
 figcaption { max-width: 48rem; margin-top: .55rem; }
 figcaption b, caption b { color: var(--ink); font-weight: 600; }
@@ -61,7 +61,7 @@ tbody tr:last-child td { border-bottom: 0; }
 tbody tr:nth-child(even) td { background: var(--faint); }
 th.figure, td.figure { text-align: right; white-space: nowrap;
   font-variant-numeric: tabular-nums lining-nums; }
-.summary table { width: 100%; font-size: 1rem; }
+.summary table { width: 100%; max-width: 44rem; font-size: 1rem; }
 .imprint { margin-top: 3.5rem; padding-top: 1rem; padding-bottom: 3rem; color: var(--soft);
   font-size: .85rem; }
 .imprint p { padding-top: 1rem; border-top: 1px solid var(--line); max-width: none; }
@@ -69,7 +69,8 @@ th.figure, td.figure { text-align: right; white-space: nowrap;
   @page { size: A4; margin: 18mm 16mm; }
   :root { color-scheme: light; --page: #fff; --ink: #000; --soft: #444; --line: #bbb;
     --faint: #f6f6f6; --accent: #123f5c; --plate: #fff; }
-  body { font-size: 10pt; }
+  html { font-size: 10pt; }
+  figure img { filter: none; }
   main, .masthead, .imprint { max-width: none; padding-left: 0; padding-right: 0; }
   .masthead { padding-top: 0; }
   .scroll { overflow: visible; }

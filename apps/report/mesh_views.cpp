@@ -84,6 +84,7 @@ Image8 mesh_views(const TriangleMesh& mesh, const MeshViewsOptions& options) {
   mesh.check();
   const std::vector<ViewDirection> views{front_view(), side_view(), oblique_view()};
   std::vector<Eigen::AlignedBox3d> seen;
+  seen.reserve(views.size());
   for (const ViewDirection& view : views) seen.push_back(box_seen(mesh, view));
   if (seen[0].isEmpty()) return empty_picture("The mesh has no triangles.");
 

@@ -165,7 +165,7 @@ class Painter {
   Eigen::Vector3f shading_normal(const TriangleMesh::Triangle& triangle,
                                  const Eigen::Vector3f& weight) const {
     const Eigen::Vector3f& a = mesh_.vertices[triangle[0]];
-    const Eigen::Vector3f own =
+    Eigen::Vector3f own =
         (mesh_.vertices[triangle[1]] - a).cross(mesh_.vertices[triangle[2]] - a).stableNormalized();
     if (normals_.empty()) return own;
     Eigen::Vector3f blended = Eigen::Vector3f::Zero();

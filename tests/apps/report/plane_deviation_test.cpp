@@ -94,6 +94,7 @@ TEST(DeviationHistogram, DrawsTheNormalCurveOverNormalValues) {
   // The curve's peak over bars of normal values: both reach the same height within the noise.
   Random random(3);
   std::vector<float> values;
+  values.reserve(100000);
   for (int i = 0; i < 100000; ++i) values.push_back(static_cast<float>(1e-4 * random.normal()));
   const DeviationHistogramOptions bars_only{.largest = 3e-4};
   DeviationHistogramOptions with_curve = bars_only;

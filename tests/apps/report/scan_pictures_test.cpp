@@ -158,7 +158,7 @@ TEST(StripeOverFrame, ReducesLargeFramesAndRefusesForeignProfiles) {
   const Image8 picture = stripe_over_frame(frame.view(), StripeProfile::none(3000));
   EXPECT_LE(picture.cols, 1610);
   EXPECT_EQ(stripe_over_frame({}, StripeProfile::none(0)).rows, 160);
-  EXPECT_NE(error_of([&] { stripe_over_frame(frame.view(), StripeProfile::none(7)); }).find("7"),
+  EXPECT_NE(error_of([&] { stripe_over_frame(frame.view(), StripeProfile::none(7)); }).find('7'),
             std::string::npos);
 }
 
