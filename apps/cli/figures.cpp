@@ -10,7 +10,7 @@
 namespace facula {
 namespace {
 
-constexpr std::array<std::pair<const char*, const char*>, 16> kUnits{{{"mm", "mm"},
+constexpr std::array<std::pair<const char*, const char*>, 15> kUnits{{{"mm", "mm"},
                                                                       {"m", "m"},
                                                                       {"deg", "deg"},
                                                                       {"rad", "rad"},
@@ -23,7 +23,6 @@ constexpr std::array<std::pair<const char*, const char*>, 16> kUnits{{{"mm", "mm
                                                                       {"percent", "%"},
                                                                       {"s", "s"},
                                                                       {"mib", "MiB"},
-                                                                      {"sigma", "sigma"},
                                                                       {"ppm", "ppm"},
                                                                       {"fps", "1/s"}}};
 

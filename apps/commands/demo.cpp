@@ -30,8 +30,8 @@ DemoSettings settings_of(const DemoArguments& a, const Session& session) {
   settings.seed = a.seed;
   settings.num_threads = session.num_threads;
   if (a.quick) {
-    settings.room_step = 4 * kDegrees.factor;
-    settings.object_step = 6 * kDegrees.factor;
+    settings.room_step = 3 * kDegrees.factor;
+    settings.object_step = 4 * kDegrees.factor;
   }
   return settings;
 }

@@ -12,10 +12,12 @@
 namespace facula {
 namespace {
 
-/// Outliers go, then one point per millimetre of surface: the object is 130 mm high.
-TriangleMesh mesh_object(const PolarScan& scan) {
+TriangleMesh mesh_object(const PolarScan& scan, const DemoSettings& settings) {
   const PointCloud cloud = cloud_from_scan(scan);
-  return mesh_advancing_front(thin_by_voxel(selected(cloud, statistical_inliers(cloud)), 0.001));
+  AdvancingFrontOptions options;
+  options.max_edge = 5 * settings.object_voxel();
+  return mesh_advancing_front(
+      thin_by_voxel(selected(cloud, statistical_inliers(cloud)), settings.object_voxel()), options);
 }
 
 }  // namespace
@@ -32,7 +34,7 @@ ObjectDemo run_object_demo(const DemoSettings& settings, Session& session) {
   scan_figures.count("mixed_removed", "mixed points removed", demo.scan.mixed_removed);
   report_range_errors(errors, scan_figures);
   session.step("meshing the object", 1, 1);
-  demo.mesh = mesh_object(demo.scan.clean);
+  demo.mesh = mesh_object(demo.scan.clean, settings);
   write_mesh(settings.folder / "object_mesh.ply", demo.mesh);
   report_mesh_error(demo.mesh,
                     scene,

@@ -77,6 +77,7 @@ void register_scans(RoomDemo& demo, const DemoSettings& settings, Session& sessi
                                   scan.clean.world_from_scan});
   }
   RegisterOptions options;
+  options.voxel = settings.room_voxel();
   options.icp.max_distance = 0.4;
   options.icp.num_threads = settings.num_threads;
   options.progress = session.progress("registering the room");
@@ -93,7 +94,7 @@ void measure_planes(RoomDemo& demo,
                     const DemoSettings& settings,
                     Session& session) {
   session.step("measuring planes", 1, 3);
-  demo.planes_cloud = thin_by_voxel(demo.project.fused(), 0.02);
+  demo.planes_cloud = thin_by_voxel(demo.project.fused(), settings.room_voxel() / 2);
   NormalOptions normals;
   normals.num_threads = settings.num_threads;
   estimate_normals(demo.planes_cloud, normals);
@@ -109,9 +110,10 @@ void measure_planes(RoomDemo& demo,
 
 void make_mesh(RoomDemo& demo, const Scene& scene, const DemoSettings& settings, Session& session) {
   session.step("meshing the room", 2, 3);
-  const PointCloud fused = demo.project.fused();
+  AdvancingFrontOptions options;
+  options.max_edge = 5 * settings.room_voxel();
   demo.mesh =
-      mesh_advancing_front(thin_by_voxel(selected(fused, statistical_inliers(fused)), 0.03));
+      mesh_advancing_front(thin_by_voxel(demo.project.fused(), settings.room_voxel()), options);
   write_mesh(settings.folder / "room_mesh.ply", demo.mesh);
   report_mesh_error(demo.mesh,
                     scene,
