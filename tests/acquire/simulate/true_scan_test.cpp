@@ -57,8 +57,8 @@ TEST(TrueScan, InTheRoomLiesOnSheetAndSurfaceAndInItsRow) {
   RigidTransform world_from_scan;
   world_from_scan.translation = {0.2, 0.8, 1.1};
   world_from_scan.rotation = Eigen::AngleAxisd(0.3, Vector3d::UnitZ());
-  std::vector<double> positions;
-  for (int i = 0; i < 30; ++i) positions.push_back(0.21 * i);
+  std::vector<double> positions(30);
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = 0.21 * static_cast<double>(i);
   const PolarScan scan = true_scan(scene, rig, world_from_scan, positions, options_for(rig));
   EXPECT_GT(scan.valid_count(), 30U * 480U * 9 / 10);
   expect_true_points(scene, rig, world_from_scan, scan);
