@@ -124,7 +124,7 @@ TEST(ScanFile, SaysWhatIsWrongWithABadFile) {
   const auto sentence_for = [&](const std::string& from, const std::string& to) {
     std::string text = foreign_pcd();
     text.replace(text.find(from), from.size(), to);
-    const std::string sentence = error_of([&] { read_scan(folder.write("bad.pcd", text)); });
+    std::string sentence = error_of([&] { read_scan(folder.write("bad.pcd", text)); });
     EXPECT_NE(sentence.find("bad.pcd"), std::string::npos) << sentence;
     return sentence;
   };
