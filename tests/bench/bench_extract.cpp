@@ -61,8 +61,8 @@ void extract_made(benchmark::State& state) {
   extract(state, capture);
 }
 
-BENCHMARK(extract_pot)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(extract_made)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(extract_pot)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(extract_made)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 }  // namespace
 }  // namespace facula

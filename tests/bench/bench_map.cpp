@@ -69,7 +69,12 @@ void insert_octomap(benchmark::State& state) {
 }
 
 void cells(benchmark::internal::Benchmark* bench) {
-  bench->Arg(100)->Arg(50)->ArgName("mm")->Unit(benchmark::kMillisecond)->UseRealTime();
+  bench->Arg(100)
+      ->Arg(50)
+      ->ArgName("mm")
+      ->Unit(benchmark::kMillisecond)
+      ->MeasureProcessCPUTime()
+      ->UseRealTime();
 }
 
 BENCHMARK(insert_facula)->Apply(cells);

@@ -40,8 +40,8 @@ void normals_of_room(benchmark::State& state) {
   state.counters["points"] = static_cast<double>(cloud.size());
 }
 
-BENCHMARK(register_room)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(normals_of_room)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(register_room)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(normals_of_room)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 }  // namespace
 }  // namespace facula
