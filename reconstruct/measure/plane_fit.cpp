@@ -81,7 +81,7 @@ PlaneFit fit_plane(const PointCloud& cloud) {
   cloud.check();
   const Moments m = moments_of(cloud);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m.scatter);
-  const Eigen::Vector3d spread = solver.eigenvalues();
+  const Eigen::Vector3d& spread = solver.eigenvalues();
   require(spread(1) > 1e-10 * spread(2),
           "the ",
           m.count,
