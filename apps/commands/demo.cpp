@@ -73,7 +73,7 @@ Command demo_command() {
           "extracts, filters, registers (from rough poses 100 mm and 3 deg off), measures "
           "planes, meshes, maps and reports, and prints for every step how far it is from the "
           "truth, which the scenes define exactly.",
-      .examples = {"facula demo --quick", "facula demo --quick --out results --seed 2"},
+      .examples = {"facula demo --quick"},
       .declare = [a](Arguments& arguments) { declare(arguments, *a); },
       .run = [a](Session& session) { run(*a, session); }};
 }

@@ -104,19 +104,19 @@ void run(const ExtractArguments& a, Session& session) {
 
 Command extract_command() {
   const auto a = std::make_shared<ExtractArguments>();
-  return {
-      .name = "extract",
-      .summary = "find the laser line in frames and make a scan",
-      .description =
-          "Finds the laser line in every frame of a capture to a fraction of a pixel, meets "
-          "each ray with the laser plane, turns the points by the axis, and writes a polar "
-          "scan with a standard deviation per point.",
-      .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
-                   "data/rigs/head_fs1500.toml --from-deg 0 --to-deg 10 --step-deg 1 --out room",
-                   "facula extract room --out room.pcd --out room.ply",
-                   "facula extract room --detector centroid --min-snr 8 --out centroid.pcd"},
-      .declare = [a](Arguments& arguments) { declare(arguments, *a); },
-      .run = [a](Session& session) { run(*a, session); }};
+  return {.name = "extract",
+          .summary = "find the laser line in frames and make a scan",
+          .description =
+              "Finds the laser line in every frame of a capture to a fraction of a pixel, meets "
+              "each ray with the laser plane, turns the points by the axis, and writes a polar "
+              "scan with a standard deviation per point.",
+          .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
+                       "data/rigs/head_fs1500.toml --from-deg 0 --to-deg 10 --step-deg 1 "
+                       "--position-mm -1500 -300 1100 --out room",
+                       "facula extract room --out room.pcd --out room.ply",
+                       "facula extract room --detector centroid --min-snr 8 --out centroid.pcd"},
+          .declare = [a](Arguments& arguments) { declare(arguments, *a); },
+          .run = [a](Session& session) { run(*a, session); }};
 }
 
 }  // namespace facula

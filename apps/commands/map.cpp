@@ -81,7 +81,8 @@ Command map_command() {
               "occupied or unknown (OctoMap). The grid is the map seen from above, as ROS map "
               "servers read it.",
           .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
-                       "data/rigs/head_fs1500.toml --step-deg 12 --out room",
+                       "data/rigs/head_fs1500.toml --step-deg 12 "
+                       "--position-mm -1500 -300 1100 --out room",
                        "facula extract room --out room.pcd",
                        "facula map room.pcd --resolution-mm 100 --out room.bt --out room.ot --grid "
                        "room.yaml --min-height-m 0.1 --max-height-m 1.5"},

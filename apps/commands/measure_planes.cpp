@@ -88,9 +88,10 @@ Command measure_planes_command() {
           "standard deviation of the points about the plane, p2v the largest minus the smallest "
           "distance, 4 sigma/D the system error of the scanner over its mean distance D.",
       .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
-                   "data/rigs/head_fs1500.toml --step-deg 2 --out room",
+                   "data/rigs/head_fs1500.toml --step-deg 3 "
+                   "--position-mm -1500 -300 1100 --out room",
                    "facula extract room --out room.pcd",
-                   "facula measure planes room.pcd --inlier-mm 20 --min-points 300 --out "
+                   "facula measure planes room.pcd --inlier-mm 20 --voxel-mm 50 --out "
                    "planes.csv"},
       .declare = [a](Arguments& arguments) { declare(arguments, *a); },
       .run = [a](Session& session) { run(*a, session); }};

@@ -8,6 +8,7 @@
 #include <facula/apps/commands/mesh.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
 #include <facula/reconstruct/filter/cloud_filters.hpp>
+#include <facula/reconstruct/filter/sampling_distance.hpp>
 #include <facula/reconstruct/filter/scan_filters.hpp>
 #include <facula/reconstruct/mesh/meshing.hpp>
 
@@ -20,7 +21,7 @@ struct MeshArguments {
   std::vector<std::filesystem::path> scans;
   std::vector<std::filesystem::path> out;
   std::string method = "advancing-front";
-  double voxel = 0;     ///< 0 = all points [m]
+  double voxel = 0;     ///< 0 = chosen from the sampling [m]
   double max_edge = 0;  ///< 0 = the method's own [m]
   bool no_filter = false;
   std::filesystem::path compare;
@@ -36,7 +37,11 @@ void declare(Arguments& arguments, MeshArguments& a) {
                    {"advancing-front", "grid"},
                    "advancing-front: a surface through all points; grid: along rows and columns of "
                    "one scan");
-  arguments.number("--voxel-mm", a.voxel, kMillimetres, "thin the points to this first, 0 = not");
+  arguments.number("--voxel-mm",
+                   a.voxel,
+                   kMillimetres,
+                   "thin the points to this first, 0 = half the step from stripe to stripe where "
+                   "that is coarse");
   arguments.number(
       "--max-edge-mm", a.max_edge, kMillimetres, "longest edge, 0 = chosen from the points");
   arguments.flag("--no-filter", a.no_filter, "keep mixed points and outliers");
@@ -59,6 +64,14 @@ TriangleMesh grid_mesh(const MeshArguments& a, Figures& figures) {
   return transformed(mesh_grid(scan, options), scan.world_from_scan);
 }
 
+/// Points dense along the stripe and far from stripe to stripe make slivers: half the coarse step
+/// evens them out. Points that lie evenly are all kept.
+double voxel_for(const MeshArguments& a, const PointCloud& cloud) {
+  if (a.voxel > 0) return a.voxel;
+  const SamplingDistance distance = sampling_distance(cloud);
+  return distance.across > 3 * distance.nearest ? distance.across / 2 : 0;
+}
+
 PointCloud cleaned_cloud(const MeshArguments& a, Session& session) {
   session.step("reading and filtering", 1, 3);
   const PosedScans scans = read_posed_scans(a.scans, !a.no_filter);
@@ -70,8 +83,9 @@ PointCloud cleaned_cloud(const MeshArguments& a, Session& session) {
     session.figures.count("mixed_removed", "mixed points removed", scans.mixed_removed);
     session.figures.count("outliers_removed", "outliers removed", before - cloud.size());
   }
-  if (a.voxel > 0) {
-    cloud = thin_by_voxel(cloud, a.voxel);
+  if (const double voxel = voxel_for(a, cloud); voxel > 0) {
+    cloud = thin_by_voxel(cloud, voxel);
+    session.figures.number("voxel_mm", "points thinned to", 1000 * voxel, 3);
     session.figures.count("thinned_points", "points after thinning", cloud.size());
   }
   return cloud;
@@ -127,7 +141,7 @@ Command mesh_command() {
   return {.name = "mesh",
           .summary = "make a triangle mesh of scans",
           .description =
-              "Removes mixed points and outliers, thins the points if asked to, lays a surface "
+              "Removes mixed points and outliers, evens out the sampling, lays a surface "
               "through them, and says how large and how closed it is. Points are not moved.",
           .examples = {"facula simulate data/scenes/turntable_object.toml --rig "
                        "data/rigs/ciclop_turntable.toml --step-deg 10 --out object",

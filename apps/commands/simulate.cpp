@@ -133,7 +133,7 @@ Command simulate_command() {
           "The same seed gives the same frames.",
       .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
                    "data/rigs/head_fs1500.toml --from-deg 0 --to-deg 20 --step-deg 2 "
-                   "--position-mm 0 0 0 --out room",
+                   "--position-mm -1500 -300 1100 --out room",
                    "facula simulate data/scenes/turntable_object.toml --rig "
                    "data/rigs/ciclop_turntable.toml --from-deg 0 --to-deg 330 --step-deg 30 "
                    "--background --out object"},

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/version.hpp>
+#include <facula/tests/apps/cli/program_run.hpp>
+#include <facula/tests/support/temporary_folder.hpp>
+
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace facula {
+namespace {
+
+class Usage : public testing::Test {
+ protected:
+  ProgramRun run(const std::string& line) const { return run_line(line, folder_.path()); }
+  TemporaryFolder folder_;
+};
+
+/// A usage error: code 2, one line that holds the words, nothing on standard output.
+void expect_usage_error(const ProgramRun& run, const std::string& words) {
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_EQ(run.out, "");
+}
+
+TEST_F(Usage, HelpOfEveryCommandShowsAnExample) {
+  for (const std::string& name : command_names()) {
+    const ProgramRun help = run("facula " + name + " --help");
+    EXPECT_EQ(help.code, 0) << name;
+    EXPECT_EQ(help.err, "") << name;
+    EXPECT_FALSE(examples_of(help.out).empty()) << name;
+    for (const char* option : {"--json", "--threads", "--help"}) {
+      EXPECT_NE(help.out.find(option), std::string::npos) << name;
+    }
+  }
+}
+
+TEST_F(Usage, HelpFitsInTheWidthOfAScreenButForExamples) {
+  for (const std::string& name : command_names()) {
+    const std::string help = run("facula " + name + " --help").out;
+    const std::string before_examples = help.substr(0, help.find("\nExamples"));
+    std::size_t begin = 0;
+    while (begin < before_examples.size()) {
+      const std::size_t end = std::min(before_examples.find('\n', begin), before_examples.size());
+      EXPECT_LE(end - begin, 100U) << before_examples.substr(begin, end - begin);
+      begin = end + 1;
+    }
+  }
+}
+
+TEST_F(Usage, ProgramAloneListsEveryCommand) {
+  const ProgramRun alone = run("facula");
+  EXPECT_EQ(alone.code, 0);
+  for (const std::string& name : command_names()) {
+    EXPECT_NE(alone.out.find("  " + name + " "), std::string::npos) << name;
+  }
+}
+
+TEST_F(Usage, VersionIsTheLibrarys) {
+  const ProgramRun version = run("facula --version");
+  EXPECT_EQ(version.code, 0);
+  EXPECT_EQ(version.out, std::string("facula ") + facula::version() + "\n");
+}
+
+TEST_F(Usage, UnknownCommandSuggestsTheNearOne) {
+  expect_usage_error(run("facula extrct capture"), "did you mean 'extract'?");
+  expect_usage_error(run("facula measure plane x.pcd"), "facula measure planes");
+  expect_usage_error(run("facula xyzzy"), "expected a command, got 'xyzzy'");
+}
+
+TEST_F(Usage, UnknownOptionSuggestsTheNearOne) {
+  expect_usage_error(run("facula extract capture --ot scan.pcd"), "did you mean '--out'?");
+  expect_usage_error(run("facula map s.pcd --out m.bt --resolution-m 5"),
+                     "did you mean '--resolution-mm'?");
+}
+
+TEST_F(Usage, MalformedValuesSayWhatWasExpected) {
+  expect_usage_error(run("facula map s.pcd --out m.bt --resolution-mm five"),
+                     "--resolution-mm: expected a number in mm, got 'five'");
+  expect_usage_error(run("facula map s.pcd --out m.bt --resolution-mm nan"), "got 'nan'");
+  expect_usage_error(run("facula map s.pcd --out m.bt --threads -3"), "--threads");
+  expect_usage_error(run("facula mesh s.pcd --out m.ply --method advancing-frnt"),
+                     "did you mean 'advancing-front'?");
+  expect_usage_error(run("facula mesh s.pcd --out m.ply --threads 99999"), "--threads");
+}
+
+TEST_F(Usage, MissingArgumentsAreNamed) {
+  expect_usage_error(run("facula extract capture"), "--out");
+  expect_usage_error(run("facula extract --out scan.pcd"), "CAPTURE");
+  expect_usage_error(run("facula extract capture --out"), "--out");
+  expect_usage_error(run("facula info one.pcd two.pcd"), "two.pcd");
+}
+
+TEST_F(Usage, MissingFileIsOneSentence) {
+  for (const char* line : {"facula info nothing.pcd",
+                           "facula extract nothing --out s.pcd",
+                           "facula mesh nothing.pcd --out m.ply",
+                           "facula simulate nothing.toml --rig data/rigs/head_fs1500.toml --out c",
+                           "facula map nothing.pcd --out m.bt",
+                           "facula register a.pcd b.pcd --out p.toml"}) {
+    const ProgramRun missing = run(line);
+    EXPECT_EQ(missing.code, 1) << line;
+    EXPECT_EQ(missing.err.rfind("facula ", 0), 0U) << missing.err;
+    EXPECT_EQ(std::count(missing.err.begin(), missing.err.end(), '\n'), 1) << missing.err;
+  }
+}
+
+}  // namespace
+}  // namespace facula
