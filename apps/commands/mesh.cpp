@@ -64,14 +64,6 @@ TriangleMesh grid_mesh(const MeshArguments& a, Figures& figures) {
   return transformed(mesh_grid(scan, options), scan.world_from_scan);
 }
 
-/// Points dense along the stripe and far from stripe to stripe make slivers: half the coarse step
-/// evens them out. Points that lie evenly are all kept.
-double voxel_for(const MeshArguments& a, const PointCloud& cloud) {
-  if (a.voxel > 0) return a.voxel;
-  const SamplingDistance distance = sampling_distance(cloud);
-  return distance.across > 3 * distance.nearest ? distance.across / 2 : 0;
-}
-
 PointCloud cleaned_cloud(const MeshArguments& a, Session& session) {
   session.step("reading and filtering", 1, 3);
   const PosedScans scans = read_posed_scans(a.scans, !a.no_filter);
@@ -83,7 +75,8 @@ PointCloud cleaned_cloud(const MeshArguments& a, Session& session) {
     session.figures.count("mixed_removed", "mixed points removed", scans.mixed_removed);
     session.figures.count("outliers_removed", "outliers removed", before - cloud.size());
   }
-  if (const double voxel = voxel_for(a, cloud); voxel > 0) {
+  // Points dense along the stripe and far from stripe to stripe would make slivers.
+  if (const double voxel = a.voxel > 0 ? a.voxel : evening_voxel(cloud); voxel > 0) {
     cloud = thin_by_voxel(cloud, voxel);
     session.figures.number("voxel_mm", "points thinned to", 1000 * voxel, 3);
     session.figures.count("thinned_points", "points after thinning", cloud.size());

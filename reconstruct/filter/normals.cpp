@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/parallel.hpp>
+#include <facula/reconstruct/filter/cloud_filters.hpp>
 #include <facula/reconstruct/filter/nearest_neighbours.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
+#include <facula/reconstruct/filter/sampling_distance.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -39,13 +41,16 @@ void estimate_normals(PointCloud& cloud, const NormalOptions& options) {
   require(cloud.empty() || cloud.size() >= 3,
           "normals need at least 3 points, the cloud has ",
           cloud.size());
-  const NearestNeighbours tree(cloud.points);
+  const double voxel = evening_voxel(cloud);
+  const std::vector<Eigen::Vector3f> surface =
+      voxel > 0 ? thin_by_voxel({.points = cloud.points}, voxel).points : cloud.points;
+  const NearestNeighbours tree(surface);
   std::vector<Eigen::Vector3f> normals(cloud.size(), Eigen::Vector3f::Zero());
   const auto estimate = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto neighbours = tree.nearest(cloud.points[i], options.neighbours);
       if (neighbours.size() < 3) continue;
-      const Eigen::Vector3f normal = local_normal(cloud.points, neighbours).cast<float>();
+      const Eigen::Vector3f normal = local_normal(surface, neighbours).cast<float>();
       const Eigen::Vector3f origin =
           cloud.sensor_origin.empty() ? Eigen::Vector3f::Zero() : cloud.sensor_origin[i];
       normals[i] = normal.dot(origin - cloud.points[i]) < 0 ? Eigen::Vector3f(-normal) : normal;

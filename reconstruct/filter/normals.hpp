@@ -13,7 +13,9 @@ struct NormalOptions {
 };
 
 /// Sets cloud.normals: least eigenvector of the neighbours' covariance, turned towards the point's
-/// sensor origin (towards the frame's origin where there is none).
+/// sensor origin (towards the frame's origin where there is none). Where the cloud is much denser
+/// along the stripe than from stripe to stripe, the neighbours come from the cloud evened out
+/// (evening_voxel()): those of one stripe lie on a line and hold no normal.
 void estimate_normals(PointCloud& cloud, const NormalOptions& options = {});
 
 }  // namespace facula

@@ -58,4 +58,9 @@ SamplingDistance sampling_distance(const PointCloud& cloud) {
   return result;
 }
 
+double evening_voxel(const PointCloud& cloud) {
+  const SamplingDistance distance = sampling_distance(cloud);
+  return distance.across > 3 * distance.nearest ? distance.across / 2 : 0;
+}
+
 }  // namespace facula

@@ -2,6 +2,7 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/random.hpp>
 #include <facula/reconstruct/filter/point_spacing.hpp>
+#include <facula/reconstruct/filter/sampling_distance.hpp>
 #include <facula/reconstruct/measure/largest_piece.hpp>
 #include <facula/reconstruct/measure/plane.hpp>
 #include <facula/reconstruct/measure/ransac_plane.hpp>
@@ -52,21 +53,28 @@ Indices points_near(const PointCloud& cloud,
   return near;
 }
 
+/// How far apart the points lie: each from its nearest, and all from stripe to stripe.
+struct Sampling {
+  std::vector<float> spacing;
+  double across = 0;
+};
+
 /// The gap that parts of one plane may have between them.
 double gap_of(const Indices& points,
-              const std::vector<float>& spacing,
+              const Sampling& sampling,
               const PlaneExtractionOptions& options) {
   if (options.max_gap > 0) return options.max_gap;
   std::vector<float> here;
   here.reserve(points.size());
-  for (const std::size_t i : points) here.push_back(spacing[i]);
-  return std::max(8 * quantile(std::move(here), 0.95), 2 * options.inlier_distance);
+  for (const std::size_t i : points) here.push_back(sampling.spacing[i]);
+  return std::max(
+      {8 * quantile(std::move(here), 0.95), 3 * sampling.across, 2 * options.inlier_distance});
 }
 
 /// Gathers, keeps the largest piece and fits in turn until the plane takes in no more points.
 std::optional<ExtractedPlane> refine(const PointCloud& cloud,
                                      const Indices& pool,
-                                     const std::vector<float>& spacing,
+                                     const Sampling& sampling,
                                      Plane plane,
                                      const PlaneExtractionOptions& options) {
   std::optional<ExtractedPlane> best;
@@ -74,7 +82,7 @@ std::optional<ExtractedPlane> refine(const PointCloud& cloud,
     const Indices near =
         points_near(cloud, pool, plane, options.inlier_distance, options.max_normal_angle);
     if (near.size() < 3) return best;
-    Indices piece = largest_piece(cloud, near, plane, gap_of(near, spacing, options));
+    Indices piece = largest_piece(cloud, near, plane, gap_of(near, sampling, options));
     if (piece.size() < 3 || (best && piece.size() <= best->indices.size())) return best;
     PlaneFit fit;
     try {
@@ -138,7 +146,7 @@ std::vector<ExtractedPlane> extract_planes(const PointCloud& cloud,
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (cloud.points[i].allFinite()) pool.push_back(i);
   }
-  const std::vector<float> spacing = point_spacing(cloud.points);
+  const Sampling sampling{point_spacing(cloud.points), sampling_distance(cloud).across};
   Random random(options.seed);
   std::vector<ExtractedPlane> planes;
   int failures = 0;
@@ -146,7 +154,7 @@ std::vector<ExtractedPlane> extract_planes(const PointCloud& cloud,
          pool.size() >= options.min_points) {
     const auto candidate = ransac_plane(
         draw_sample(cloud, pool, random), {options.inlier_distance, options.iterations}, random);
-    auto plane = candidate ? refine(cloud, pool, spacing, *candidate, options) : std::nullopt;
+    auto plane = candidate ? refine(cloud, pool, sampling, *candidate, options) : std::nullopt;
     if (!plane) {
       ++failures;
     } else if (plane->indices.size() < options.min_points) {

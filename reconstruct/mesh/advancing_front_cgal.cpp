@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
-#include <facula/reconstruct/filter/point_spacing.hpp>
+#include <facula/reconstruct/filter/sampling_distance.hpp>
 #include <facula/reconstruct/mesh/meshing.hpp>
 #include <facula/reconstruct/mesh/orient_mesh.hpp>
 
@@ -82,6 +82,12 @@ TriangleMesh mesh_of(const PointCloud& cloud,
   return mesh;
 }
 
+/// Long enough to reach over a few missing points and from stripe to stripe.
+double longest_edge(const PointCloud& cloud) {
+  const SamplingDistance distance = sampling_distance(cloud);
+  return std::max(6 * distance.nearest, 3 * distance.across);
+}
+
 /// Where the outside lies at every vertex, as far as the cloud tells.
 std::vector<Eigen::Vector3f> outward_directions(const PointCloud& cloud,
                                                 const std::vector<std::size_t>& point_of_vertex) {
@@ -122,8 +128,7 @@ TriangleMesh mesh_advancing_front(const PointCloud& cloud, const AdvancingFrontO
   const PointCloud input = selected(cloud, finite);
   for (const Eigen::Vector3f& p : input.points) points.emplace_back(p.x(), p.y(), p.z());
   require_wide(input.points);
-  const double longest =
-      options.max_edge > 0 ? options.max_edge : 6 * quantile(point_spacing(input.points), 0.5);
+  const double longest = options.max_edge > 0 ? options.max_edge : longest_edge(input);
   std::vector<Facet> facets;
   CGAL::advancing_front_surface_reconstruction(points.begin(),
                                                points.end(),

@@ -8,7 +8,8 @@
 namespace facula {
 
 struct AdvancingFrontOptions {
-  double max_edge = 0;            ///< longest edge, 0 = 6 times the median point spacing [m]
+  double max_edge = 0;            ///< longest edge [m]; 0 = 6 times the median point spacing or
+                                  ///< 3 times the step from stripe to stripe, whichever is longer
   double radius_ratio_bound = 5;  ///< CGAL's plausibility bound [1]
   double beta = 0.52;             ///< CGAL's angle bound [rad]
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gtest/gtest.h>
-
+#include <facula/reconstruct/filter/normals.hpp>
 #include <facula/reconstruct/filter/sampling_distance.hpp>
+
+#include <gtest/gtest.h>
 
 namespace facula {
 namespace {
@@ -27,6 +28,18 @@ TEST(SamplingDistance, TellsTheStripeFromTheStep) {
 TEST(SamplingDistance, IsTheNearestWhereAllShareOneOrigin) {
   const SamplingDistance distance = sampling_distance(striped_plane(false));
   EXPECT_NEAR(distance.across, 0.0002, 1e-6);
+}
+
+TEST(SamplingDistance, EvensOutOnlyWhatIsUneven) {
+  EXPECT_NEAR(evening_voxel(striped_plane(true)), 0.0025, 1e-6);
+  EXPECT_EQ(evening_voxel(striped_plane(false)), 0);
+}
+
+/// Twenty neighbours of a point on its own stripe reach 2 mm, the next stripe is 5 mm away.
+TEST(EstimateNormals, SeesTheSurfaceBetweenStripesFarApart) {
+  PointCloud cloud = striped_plane(true);
+  estimate_normals(cloud);
+  for (const Eigen::Vector3f& normal : cloud.normals) EXPECT_GT(normal.z(), 0.999F);
 }
 
 TEST(SamplingDistance, IsZeroWithoutPoints) {
