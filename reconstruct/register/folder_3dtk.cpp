@@ -139,21 +139,28 @@ std::set<fs::path> scan_files(const fs::path& folder) {
   return files;
 }
 
+/// A scan file and the .pose beside it.
+PosedCloud read_scan(const fs::path& file, const RangeLimits& limits) {
+  const UnpackedFile unpacked(file);
+  PosedCloud scan;
+  scan.name = without_packing(file).stem().string();
+  scan.file = file;
+  scan.cloud = read_points(unpacked.path(), limits);
+  scan.world_from_scan = read_pose(file.parent_path() / (scan.name + ".pose"));
+  return scan;
+}
+
 }  // namespace
 
 ScanProject read_3dtk_folder(const fs::path& folder) {
   const RangeLimits limits = read_limits(folder / "config.ini");
   ScanProject project;
-  for (const fs::path& file : scan_files(folder)) {
-    const UnpackedFile unpacked(file);
-    PosedCloud scan;
-    scan.name = without_packing(file).stem().string();
-    scan.file = file;
-    scan.cloud = read_points(unpacked.path(), limits);
-    scan.world_from_scan = read_pose(folder / (scan.name + ".pose"));
-    project.scans.push_back(std::move(scan));
-  }
+  for (const fs::path& file : scan_files(folder)) project.scans.push_back(read_scan(file, limits));
   return project;
+}
+
+ScanProject read_3dtk_scan(const fs::path& file) {
+  return {{read_scan(file, read_limits(file.parent_path() / "config.ini"))}};
 }
 
 }  // namespace facula

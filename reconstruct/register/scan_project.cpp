@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/whole_file.hpp>
+#include <facula/reconstruct/register/compressed_file.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
 #include <facula/reconstruct/register/scan_project_formats.hpp>
 
@@ -31,6 +32,7 @@ ScanProject read_scan_project(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
   if (extension == ".toml") return read_poses_file(path);
   if (extension == ".conf") return read_stanford_conf(path);
+  if (without_packing(path).extension() == ".3d") return read_3dtk_scan(path);
   return {{read_scan_file(path)}};
 }
 

@@ -32,7 +32,8 @@ struct ScanProject {
 ///   *.conf               Stanford range scans (`bmesh FILE tx ty tz qx qy qz qw`; x_in_world =
 ///                        R(conj(q)) x + t; the `camera` line is not a sensor origin)
 ///   a folder of 3DTK     scanNNN.3d + scanNNN.pose: centimetres, left-handed, Euler angles; ranges
-///                        outside `min`..`max` of config.ini are dropped; turned to z up, metres
+///                        outside `min`..`max` of config.ini are dropped; turned to z up, metres;
+///                        a scanNNN.3d file alone is one such scan
 ///   a single scan file   .pcd, .ply, .asc, .xyz: one scan, with its VIEWPOINT
 /// Scan files may be compressed (.gz, .xz). Throws Error as the file readers do.
 ScanProject read_scan_project(const std::filesystem::path& path);

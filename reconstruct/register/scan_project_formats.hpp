@@ -12,6 +12,7 @@ namespace facula {
 ScanProject read_poses_file(const std::filesystem::path& path);
 ScanProject read_stanford_conf(const std::filesystem::path& path);
 ScanProject read_3dtk_folder(const std::filesystem::path& folder);
+ScanProject read_3dtk_scan(const std::filesystem::path& file);
 
 /// One scan with the pose of its file (VIEWPOINT of a .pcd, else the identity); may be packed.
 /// Points without sensor origins get the frame's origin.
