@@ -33,6 +33,11 @@ void check_option_names(const Arguments& arguments, const std::vector<std::strin
   }
 }
 
+/// The argument that a message of CLI11 is about: it begins with its name.
+std::string first_word(const std::string& message) {
+  return message.substr(0, message.find_first_of(" :"));
+}
+
 /// One argument for CLI11; it splits the words, their meaning is ours.
 void declare(CLI::App& app, const ArgumentSpec& spec) {
   if (spec.words == 0) {
@@ -45,6 +50,8 @@ void declare(CLI::App& app, const ArgumentSpec& spec) {
     option->expected(1, 1 << 20);
   } else if (spec.repeatable) {
     option->expected(1)->take_all()->allow_extra_args(false);
+  } else if (spec.positional()) {
+    option->expected(spec.words);
   } else {
     option->expected(spec.words)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   }
@@ -62,9 +69,15 @@ void parse_arguments(const Arguments& arguments, const std::vector<std::string>&
   try {
     app.parse(reversed);
   } catch (const CLI::RequiredError& error) {
-    fail_usage("expected ", error.what(), "; give it, or see --help");
-  } catch (const CLI::ExtrasError& error) {
-    fail_usage("got more than it takes: ", error.what(), "; see --help");
+    fail_usage("expected ", first_word(error.what()), ", got none; give it, or see --help");
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string name = first_word(error.what());
+    if (!name.starts_with("-")) fail_usage("expected one ", name, ", got more words; see --help");
+    fail_usage("expected a value behind ",
+               name,
+               " (as many as --help says), got none or too few; give it, or see --help");
+  } catch (const CLI::ExtrasError&) {
+    fail_usage("expected nothing more, got '", app.remaining().front(), "'; see --help");
   } catch (const CLI::Error& error) {
     fail_usage(error.what(), "; see --help");
   }

@@ -90,7 +90,7 @@ TEST_F(Usage, MissingArgumentsAreNamed) {
   expect_usage_error(run("facula extract capture"), "--out");
   expect_usage_error(run("facula extract --out scan.pcd"), "CAPTURE");
   expect_usage_error(run("facula extract capture --out"), "--out");
-  expect_usage_error(run("facula info one.pcd two.pcd"), "two.pcd");
+  expect_usage_error(run("facula info one.pcd two.pcd"), "expected one FILE, got more");
 }
 
 TEST_F(Usage, MissingFileIsOneSentence) {
