@@ -64,7 +64,8 @@ void read_any_row(ImageView8 frame, int r, Channel channel, const Write& write) 
 }
 
 bool any_clipped(const std::uint8_t* pixel, int channels) {
-  return std::any_of(pixel, pixel + channels, [](std::uint8_t v) { return v == 255; });
+  if (channels == 1) return pixel[0] == 255;
+  return pixel[0] == 255 || pixel[1] == 255 || pixel[2] == 255;
 }
 
 }  // namespace
@@ -116,15 +117,23 @@ StripeSignal::StripeSignal(ImageView8 frame, ImageView8 background, Channel chan
                      : static_cast<std::size_t>(r) * static_cast<std::size_t>(cols_) +
                            static_cast<std::size_t>(c);
   };
+  // One step from column to column of the frame, whether that is along or across our rows.
+  const std::size_t step = transpose ? static_cast<std::size_t>(cols_) : 1;
   for (int r = 0; r < frame.rows; ++r) {
     const std::uint8_t* pixels = frame.row(r);
-    read_any_row(frame, r, channel, [&](int c, float value) {
-      values_[index(r, c)] = value;
-      clipped_[index(r, c)] = any_clipped(pixels + c * frame.channels, frame.channels) ? 1 : 0;
+    float* values = &values_[index(r, 0)];
+    std::uint8_t* clipped = &clipped_[index(r, 0)];
+    read_any_row(frame, r, channel, [=](int c, float value) {
+      values[static_cast<std::size_t>(c) * step] = value;
     });
+    for (int c = 0; c < frame.cols; ++c) {
+      clipped[static_cast<std::size_t>(c) * step] =
+          any_clipped(pixels + c * frame.channels, frame.channels) ? 1 : 0;
+    }
     if (background.empty()) continue;
-    read_any_row(
-        background, r, channel, [&](int c, float value) { values_[index(r, c)] -= value; });
+    read_any_row(background, r, channel, [=](int c, float value) {
+      values[static_cast<std::size_t>(c) * step] -= value;
+    });
   }
 }
 

@@ -63,11 +63,35 @@ float filtered(const std::vector<float>& kernel, const float* row, int c, int co
   return sum;
 }
 
+/// filtered() for all columns [begin, end): taps outside, columns inside, so that the compiler runs
+/// several columns at once. The sums are the same.
+std::vector<float> filtered_row(
+    const std::vector<float>& kernel, const float* row, int begin, int end, int cols) {
+  const int radius = static_cast<int>(kernel.size() / 2);
+  std::vector<float> out(static_cast<std::size_t>(end - begin), 0.0F);
+  const int first = std::clamp(radius, begin, end);
+  const int last = std::clamp(cols - radius, first, end);
+  for (int c = begin; c < first; ++c) {
+    out[static_cast<std::size_t>(c - begin)] = filtered(kernel, row, c, cols);
+  }
+  for (int c = last; c < end; ++c) {
+    out[static_cast<std::size_t>(c - begin)] = filtered(kernel, row, c, cols);
+  }
+  for (std::size_t i = 0; i < kernel.size() && first < last; ++i) {
+    const float weight = kernel[i];
+    const float* s = row + first - radius + static_cast<std::ptrdiff_t>(i);
+    float* sum = out.data() + (first - begin);
+    for (int c = 0; c < last - first; ++c) sum[c] += weight * s[c];
+  }
+  return out;
+}
+
 /// Standard deviation of most of the values, those within `reach` of `middle` left out: what else
 /// is in the row beside the stripe: grain, compression, texture.
 float robust_scale(const std::vector<float>& values, std::size_t middle, std::size_t reach) {
   std::vector<float> sizes;
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  constexpr std::size_t kStep = 3;  // neighbours say the same after the filter
+  for (std::size_t i = 0; i < values.size(); i += kStep) {
     if (i + reach < middle || i > middle + reach) sizes.push_back(std::abs(values[i]));
   }
   if (sizes.size() < 16) return 0;
@@ -88,8 +112,7 @@ class FirZeroCrossing : public RowDetector {
     if (end - begin < 3) return std::nullopt;
     const float* row = signal.row(r);
     const int cols = signal.cols();
-    std::vector<float> bends;
-    for (int c = begin; c < end; ++c) bends.push_back(filtered(kernels_.curvature, row, c, cols));
+    const std::vector<float> bends = filtered_row(kernels_.curvature, row, begin, end, cols);
     // The middle of the row's most line-like place is where the smoothed row bends most.
     const int peak =
         begin + static_cast<int>(std::max_element(bends.begin(), bends.end()) - bends.begin());
