@@ -60,7 +60,8 @@ TEST(Triangulate, AgreesWithThePublishedCiclopExample) {
   const Eigen::Vector3d ray(-0.08866434, -0.28534266, 1);
   LaserPlane plane;
   plane.normal = Eigen::Vector3d(-0.86952, -0.020884, 0.493456);
-  plane.distance = 0.15611;  // n . Xc of the published point, 156.1100 mm; the plane's own distance is not printed
+  plane.distance = 0.15611;  // n . Xc of the published point, 156.1100 mm; the plane's own distance
+                             // is not printed
   const auto point = plane.intersect(ray);
   ASSERT_TRUE(point.has_value());
   EXPECT_TRUE(is_near_point(*point * 1000, {-24.00891, -77.26631, 270.78431}, 1e-4));

@@ -3,11 +3,11 @@
 #include <facula/reconstruct/filter/normals.hpp>
 #include <facula/reconstruct/mesh/meshing.hpp>
 #include <facula/reconstruct/pcl_bridge.hpp>
+#include <facula/tests/reconstruct/surfaces.hpp>
 #include <facula/tests/support/matchers.hpp>
 
 #include <limits>
 
-#include "surfaces.hpp"
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>
 #include <gtest/gtest.h>
