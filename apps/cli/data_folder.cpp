@@ -26,7 +26,7 @@ bool is_folder(const fs::path& path) {
 fs::path data_folder() {
   const char* chosen = std::getenv("FACULA_DATA");
   if (chosen != nullptr && *chosen != 0) return chosen;
-  const fs::path installed = installed_data();
+  fs::path installed = installed_data();
   if (is_folder(installed)) return installed;
   return FACULA_SOURCE_DATA;
 }

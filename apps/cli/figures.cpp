@@ -90,7 +90,10 @@ std::string printed(const FigureValue& value, int decimals) {
     std::string operator()(const std::string& x) const { return x; }
     std::string operator()(const std::vector<double>& x) const {
       std::string all;
-      for (const double one : x) all += (all.empty() ? "" : " ") + fixed_text(one, decimals);
+      for (const double one : x) {
+        if (!all.empty()) all += ' ';
+        all += fixed_text(one, decimals);
+      }
       return all;
     }
   };

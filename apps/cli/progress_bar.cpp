@@ -3,6 +3,7 @@
 #include <facula/apps/cli/progress_bar.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <utility>
 
@@ -12,7 +13,7 @@ namespace facula {
 namespace {
 
 std::string duration(double seconds) {
-  const auto whole = static_cast<long long>(std::max(0.0, seconds) + 0.5);
+  const auto whole = std::llround(std::max(0.0, seconds));
   if (whole < 60) return std::to_string(whole) + " s";
   const std::string rest = std::to_string(whole % 60);
   return std::to_string(whole / 60) + " min " + (rest.size() < 2 ? "0" : "") + rest + " s";

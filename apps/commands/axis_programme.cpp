@@ -35,6 +35,7 @@ std::vector<double> positions_of(const Steps& steps, const std::string& unit) {
           "; choose a larger --step-",
           unit);
   std::vector<double> positions;
+  positions.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < static_cast<int>(count); ++i)
     positions.push_back(steps.from + i * steps.step);
   return positions;

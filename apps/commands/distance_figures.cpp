@@ -11,7 +11,7 @@ namespace {
 /// The nearest-rank quantile of sorted values.
 double quantile(const std::vector<double>& sorted, double share) {
   const auto last = static_cast<double>(sorted.size() - 1);
-  return sorted[static_cast<std::size_t>(share * last + 0.5)];
+  return sorted[static_cast<std::size_t>(std::llround(share * last))];
 }
 
 }  // namespace

@@ -107,8 +107,7 @@ Command register_command() {
           "from the poses the files hold, and writes all poses. The sigmas follow from the "
           "residuals; they do not know of errors that all points share.",
       .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
-                   "data/rigs/head_fs1500.toml --step-deg 6 "
-                   "--position-mm -1500 -300 1100 --out here",
+                   "data/rigs/head_fs1500.toml --step-deg 6 --position-mm 0 -300 1100 --out here",
                    "facula simulate data/scenes/furnished_room.toml --rig "
                    "data/rigs/head_fs1500.toml --step-deg 6 --position-mm 200 800 1100 --out there",
                    "facula extract here --out here.pcd",

@@ -123,6 +123,7 @@ void make_mesh(RoomDemo& demo, const Scene& scene, const DemoSettings& settings,
 
 double median_sigma(const std::vector<RecordedScan>& scans) {
   std::vector<double> medians;
+  medians.reserve(scans.size());
   for (const RecordedScan& scan : scans) medians.push_back(scan.extracted.median_point_sigma);
   std::sort(medians.begin(), medians.end());
   return medians[medians.size() / 2];
