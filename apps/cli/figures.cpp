@@ -154,8 +154,9 @@ std::vector<std::pair<std::string, std::string>> Figures::lines() const {
   std::vector<std::pair<std::string, std::string>> all;
   for (const Figure& figure : figures_) {
     const std::string unit = unit_of_key(figure.key);
-    const std::string value = printed(figure.value, figure.decimals);
-    all.emplace_back(figure.label, unit.empty() ? value : value + " " + unit);
+    std::string value = printed(figure.value, figure.decimals);
+    if (!unit.empty()) value.append(" ").append(unit);
+    all.emplace_back(figure.label, value);
   }
   return all;
 }

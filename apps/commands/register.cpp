@@ -99,6 +99,9 @@ void run(const RegisterArguments& a, Session& session) {
 
 Command register_command() {
   const auto a = std::make_shared<RegisterArguments>();
+  const std::string simulate =
+      "facula simulate data/scenes/furnished_room.toml --rig data/rigs/head_fs1500.toml "
+      "--step-deg 6 ";
   return {
       .name = "register",
       .summary = "move scans onto each other",
@@ -106,10 +109,8 @@ Command register_command() {
           "Moves every scan after the first onto those before it by point-to-plane ICP, starting "
           "from the poses the files hold, and writes all poses. The sigmas follow from the "
           "residuals; they do not know of errors that all points share.",
-      .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
-                   "data/rigs/head_fs1500.toml --step-deg 6 --position-mm 0 -300 1100 --out here",
-                   "facula simulate data/scenes/furnished_room.toml --rig "
-                   "data/rigs/head_fs1500.toml --step-deg 6 --position-mm 200 800 1100 --out there",
+      .examples = {simulate + "--position-mm -1500 -300 1100 --out here",
+                   simulate + "--position-mm 200 800 1100 --out there",
                    "facula extract here --out here.pcd",
                    "facula extract there --out there.pcd",
                    "facula register here.pcd there.pcd --voxel-mm 100 --out poses.toml"},
