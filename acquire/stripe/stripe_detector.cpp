@@ -62,8 +62,13 @@ SearchArea search_area(const StripeSignal& signal, const StripeOptions& options)
 
 using Candidates = std::vector<std::optional<StripeCandidate>>;
 
+/// The frame's noise, or the row's own where that is clearly larger: one row is a small sample.
+float noise_about(const StripeCandidate& found, float frame_noise) {
+  return found.row_noise > 1.5F * frame_noise ? found.row_noise : frame_noise;
+}
+
 bool stands_out(const StripeCandidate& found, float noise, const StripeOptions& options) {
-  const double row_noise = static_cast<double>(std::max(noise, found.row_noise));
+  const double row_noise = static_cast<double>(noise_about(found, noise));
   return static_cast<double>(found.snr_per_noise) >= options.min_snr * row_noise &&
          static_cast<double>(found.amplitude) >= options.min_amplitude &&
          static_cast<double>(found.width) <= options.max_width_ratio * options.sigma;
@@ -107,9 +112,14 @@ float signal_noise_gain(const Candidates& candidates, float noise) {
   return std::max(0.0F, *middle);
 }
 
+constexpr float kLeastMisfit = 2.5F;  // over the expected mean square: beyond chance for 9 pixels
+
 void store(const StripeCandidate& found, float gain, std::size_t r, StripeProfile& profile) {
-  const float noise = std::max(profile.noise, found.row_noise);
-  const float variance = noise * noise + gain * found.amplitude;
+  const float noise = noise_about(found, profile.noise);
+  float variance = noise * noise + gain * found.amplitude;
+  // A profile that is no single Gaussian (a depth edge cuts it, two surfaces share it) says so by
+  // its misfit; the position is then uncertain in the same measure.
+  if (!found.saturated && found.residual > kLeastMisfit * variance) variance = found.residual;
   profile.seen[r] = 1;
   profile.position[r] = found.position;
   profile.sigma[r] = found.sigma_per_noise * std::sqrt(variance);
