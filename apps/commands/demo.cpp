@@ -55,7 +55,7 @@ void run(const DemoArguments& a, Session& session) {
   session.figures.number("elapsed_s", "time", elapsed.count(), 1);
   session.figures.text("results", "results", a.out.string());
   session.figures.note("Results are in " + a.out.string() +
-                       "/: open report.html; captures/, scans/, poses.toml, planes.csv, "
+                       "/: open report.html; pictures/, captures/, scans/, poses.toml, planes.csv, "
                        "room_mesh.ply, object_mesh.ply, map.bt, map.ot, map.yaml, demo.json.");
   write_figures(settings.folder / "demo.json", session.figures);
   folder.commit();

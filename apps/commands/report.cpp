@@ -8,6 +8,7 @@
 #include <facula/apps/commands/posed_scans.hpp>
 #include <facula/apps/commands/report.hpp>
 #include <facula/apps/commands/report_sections.hpp>
+#include <facula/apps/report/report_pictures.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
 
 #include <memory>
@@ -25,6 +26,7 @@ struct ReportArguments {
   std::filesystem::path map;
   std::filesystem::path grid;
   std::filesystem::path project;
+  std::filesystem::path pictures;
 };
 
 void declare(Arguments& arguments, ReportArguments& a) {
@@ -36,6 +38,7 @@ void declare(Arguments& arguments, ReportArguments& a) {
   arguments.input("--project", a.project, "poses.toml: all scans together, planes, poses");
   arguments.input("--mesh", a.mesh, "a mesh: three views");
   arguments.input("--map", a.map, "an occupancy map (.bt, .ot) from above");
+  arguments.output("--pictures", a.pictures, "folder that also gets every picture as a .png");
   arguments.input("--grid", a.grid, "a navigation grid (.yaml) from above");
 }
 
@@ -102,6 +105,7 @@ void run(const ReportArguments& a, Session& session) {
           "expected something to show, got none; give --capture, --scan, "
           "--project, --mesh, --map or --grid");
   write_html_report(a.out, report);
+  if (!a.pictures.empty()) write_report_pictures(a.pictures, report);
   std::size_t pictures = 0;
   std::size_t tables = 0;
   for (const ReportSection& section : report.sections) {

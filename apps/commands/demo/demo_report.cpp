@@ -2,6 +2,7 @@
 #include <facula/acquire/capture/capture_file.hpp>
 #include <facula/apps/commands/demo/demo_report.hpp>
 #include <facula/apps/commands/report_sections.hpp>
+#include <facula/apps/report/report_pictures.hpp>
 #include <facula/map/navigation_grid.hpp>
 
 #include <utility>
@@ -46,6 +47,7 @@ void write_demo_report(const RoomDemo& room,
   report.sections.push_back(scan_section("of the object", object.scan.clean));
   report.sections.push_back(mesh_section("of the object", object.mesh, settings.num_threads));
   write_html_report(settings.folder / "report.html", report);
+  write_report_pictures(settings.folder / "pictures", report);
   session.end_steps();
 }
 

@@ -6,7 +6,7 @@
 
 namespace facula {
 
-/// Pictures and tables of the whole demo: report.html in its folder.
+/// Pictures and tables of the whole demo: report.html in its folder, and pictures/.
 void write_demo_report(const RoomDemo& room,
                        const ObjectDemo& object,
                        const DemoSettings& settings,
