@@ -3,6 +3,7 @@
 #include <facula/acquire/capture/frame_source.hpp>
 #include <facula/acquire/core/atomic_file.hpp>
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/median.hpp>
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/acquire/core/random.hpp>
 #include <facula/acquire/core/scan_file.hpp>
@@ -22,6 +23,8 @@ namespace facula {
 namespace {
 
 constexpr std::uint64_t kAxisStream = std::numeric_limits<std::uint64_t>::max();
+
+constexpr double kFarthest = 1e6;  // [m], farther the ray tracer's floats know no directions
 
 // "0012.png"; all names of a run have the same length, so that they sort by number.
 std::string frame_name(std::size_t frame, std::size_t count) {
@@ -78,9 +81,7 @@ double expected_line_sigma(const PolarScan& truth, const Rig& rig, const LaserFa
     }
   }
   if (widths.empty()) return 2;
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return std::clamp(*middle, 0.5, 10.0);
+  return std::clamp(median(widths), 0.5, 10.0);
 }
 
 void write_capture(const std::filesystem::path& folder,
@@ -145,6 +146,13 @@ void simulate_capture(const std::filesystem::path& folder,
   world_from_camera.reserve(positions.size());
   for (const double position : positions) {
     world_from_camera.push_back(run.world_from_scan * rig.axis.scan_from_camera_at(position));
+    const double distance = world_from_camera.back().translation.norm();
+    require(distance < kFarthest,
+            "expected the camera within ",
+            kFarthest,
+            " m of the scene's origin, got ",
+            distance,
+            " m; check the position of the head, the rig's axis and its programme");
   }
   write_frames(folder, renderer, world_from_camera, options);
   const PolarScan truth = true_scan(scene, rig, run.world_from_scan, positions, options);

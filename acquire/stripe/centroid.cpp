@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/median.hpp>
 #include <facula/acquire/stripe/centroid.hpp>
 
 #include <algorithm>
@@ -9,13 +10,6 @@ namespace facula {
 namespace {
 
 constexpr int kReach = 10;  // [px], source B (2.3)
-
-float row_median(const float* row, int begin, int end) {
-  std::vector<float> values(row + begin, row + end);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 class Centroid : public RowDetector {
  public:
@@ -32,7 +26,8 @@ class Centroid : public RowDetector {
       if (row[c] == *brightest) last = c;
     }
     StripeCandidate found;
-    found.background = row_median(row, begin, end);
+    std::vector<float> values(row + begin, row + end);
+    found.background = median(values);
     found.amplitude = *brightest - found.background;
     const int middle = (first + last) / 2;
     weigh(row, std::max(begin, middle - kReach), std::min(end, middle + kReach + 1), found);
@@ -43,8 +38,8 @@ class Centroid : public RowDetector {
   }
 
  private:
-  /// Mean, spread, and what noise of 1 DN in every pixel does to the mean: sqrt(sum (x-m)^2) / sum
-  /// I.
+  /// Mean m, spread, and what noise of 1 DN in every pixel does to the mean:
+  /// sqrt(sum (x - m)^2) / sum I.
   static void weigh(const float* row, int begin, int end, StripeCandidate& found) {
     double weight = 0;
     double moment = 0;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/median.hpp>
 #include <facula/acquire/stripe/fir_zero_crossing.hpp>
 
 #include <algorithm>
@@ -95,9 +96,7 @@ float robust_scale(const std::vector<float>& values, std::size_t middle, std::si
     if (i + reach < middle || i > middle + reach) sizes.push_back(std::abs(values[i]));
   }
   if (sizes.size() < 16) return 0;
-  const auto half = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), half, sizes.end());
-  return *half * 1.4826F;
+  return median(sizes) * 1.4826F;  // sigma over the median of |x| for a normal x
 }
 
 class FirZeroCrossing : public RowDetector {
@@ -188,7 +187,7 @@ class FirZeroCrossing : public RowDetector {
   /// Mean square that a Gaussian of the found position and width leaves over +-3 widths, its height
   /// and level fitted by least squares; four parameters taken off.
   static float misfit(const float* row, int cols, const StripeCandidate& found) {
-    const float width = std::max(0.5F, found.width);
+    const float width = std::clamp(found.width, 0.5F, static_cast<float>(cols));
     const int first = std::max(0, static_cast<int>(std::ceil(found.position - 3 * width)));
     const int last = std::min(cols - 1, static_cast<int>(std::floor(found.position + 3 * width)));
     const int count = last - first + 1;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/median.hpp>
 #include <facula/acquire/stripe/row_noise.hpp>
 
 #include <algorithm>
@@ -11,12 +12,6 @@ namespace {
 constexpr float kQuantisation = 0.2886751F;  // 1 / sqrt(12)
 constexpr int kRows = 96;                    // rows looked at: enough for a median to 1 %
 constexpr int kStripeReach = 10;             // a stripe's own rows beside its brightest pixel [px]
-
-float median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/median.hpp>
 #include <facula/acquire/stripe/centroid.hpp>
 #include <facula/acquire/stripe/fir_zero_crossing.hpp>
 #include <facula/acquire/stripe/row_noise.hpp>
@@ -107,9 +108,7 @@ float signal_noise_gain(const Candidates& candidates, float noise) {
     }
   }
   if (gains.size() < 16) return 0;
-  const auto middle = gains.begin() + static_cast<std::ptrdiff_t>(gains.size() / 2);
-  std::nth_element(gains.begin(), middle, gains.end());
-  return std::max(0.0F, *middle);
+  return std::max(0.0F, median(gains));
 }
 
 constexpr float kLeastMisfit = 2.5F;  // over the expected mean square: beyond chance for 9 pixels
@@ -132,7 +131,9 @@ void store(const StripeCandidate& found, float gain, std::size_t r, StripeProfil
 
 void StripeOptions::check() const {
   require(sigma >= 0.5 && sigma <= 10, "stripe sigma_px: expected 0.5 to 10, got ", sigma);
-  require(min_snr > 0 && min_snr < 1e6, "stripe min_snr: expected above 0, got ", min_snr);
+  require(min_snr > 0 && min_snr < 1e6,
+          "stripe min_snr: expected above 0 and below 1e6, got ",
+          min_snr);
   require(min_amplitude >= 0 && min_amplitude <= 255,
           "stripe min_amplitude: expected 0 to 255, got ",
           min_amplitude);
