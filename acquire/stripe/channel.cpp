@@ -68,6 +68,13 @@ bool any_clipped(const std::uint8_t* pixel, int channels) {
   return pixel[0] == 255 || pixel[1] == 255 || pixel[2] == 255;
 }
 
+void check_channels(ImageView8 frame) {
+  require(frame.empty() || frame.channels == 1 || frame.channels == 3,
+          "expected a grey frame or one of 3 colours, got ",
+          frame.channels,
+          " channels");
+}
+
 }  // namespace
 
 Channel channel_from_name(const std::string& name) {
@@ -87,6 +94,7 @@ std::string to_string(Channel channel) {
 }
 
 Image8 extract_channel(ImageView8 frame, Channel channel) {
+  check_channels(frame);
   Image8 result(frame.rows, frame.cols);
   for (int r = 0; r < frame.rows; ++r) {
     std::uint8_t* out = result.row(r);
@@ -99,6 +107,13 @@ Image8 extract_channel(ImageView8 frame, Channel channel) {
 
 StripeSignal::StripeSignal(ImageView8 frame, ImageView8 background, Channel channel, bool transpose)
     : rows_(transpose ? frame.cols : frame.rows), cols_(transpose ? frame.rows : frame.cols) {
+  check_channels(frame);
+  require(background.empty() || background.channels == frame.channels,
+          "expected frame and background both grey or both in colour, got ",
+          frame.channels,
+          " and ",
+          background.channels,
+          " channels");
   require(background.empty() || (background.rows == frame.rows && background.cols == frame.cols),
           "expected a background of the frame's size ",
           frame.cols,

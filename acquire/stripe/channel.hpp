@@ -26,15 +26,16 @@ enum class Channel {
 Channel channel_from_name(const std::string& name);
 std::string to_string(Channel channel);
 
-/// One channel of a frame; a grey frame is returned as it is, whatever the channel.
+/// One channel of a frame; a grey frame is returned as it is, whatever the channel. Throws Error
+/// for any other number of channels than 1 or 3.
 Image8 extract_channel(ImageView8 frame, Channel channel);
 
 /// The rows (or columns) of a frame as the detectors read them: one channel, background taken off,
 /// as signed numbers, so that the noise about zero stays whole.
 class StripeSignal {
  public:
-  /// `background` may be empty. `transpose` turns columns into rows. Throws Error when background
-  /// and frame differ in size.
+  /// `background` may be empty. `transpose` turns columns into rows. Throws Error when the frame is
+  /// neither grey nor of 3 colours, or background and frame differ in size or number of channels.
   StripeSignal(ImageView8 frame, ImageView8 background, Channel channel, bool transpose);
 
   int rows() const { return rows_; }

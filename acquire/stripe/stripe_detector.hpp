@@ -58,7 +58,8 @@ struct StripeProfile {
 };
 
 /// Finds the stripe in a frame. `background`, when not empty, is the same view without the laser
-/// and is subtracted. Frames may be grey or colour; see StripeOptions::channel.
+/// and is subtracted. Frames may be grey or colour, both alike; see StripeOptions::channel. Throws
+/// Error on an empty frame, options out of range, or a background that does not fit the frame.
 StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const StripeOptions& options);
 
 /// "fir" or "centroid".

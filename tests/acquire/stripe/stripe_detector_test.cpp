@@ -205,6 +205,28 @@ TEST(StripeDetector, SubtractsTheBackground) {
             std::string::npos);
 }
 
+TEST(StripeDetector, RefusesChannelsItCannotRead) {
+  const Image8 colour(20, 20, 3);
+  const Image8 grey(20, 20);
+  EXPECT_NE(error_of([&] { detect_stripe(Image8(20, 20, 4).view(), {}, {}); }).find("4 channels"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { detect_stripe(colour.view(), grey.view(), {}); }).find("both grey"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { extract_channel(Image8(9, 9, 2).view(), Channel::kRed); }).find("2 ch"),
+            std::string::npos);
+}
+
+/// A view of the left part of a wider image: rows lie a stride apart.
+TEST(StripeDetector, ReadsAViewByItsStride) {
+  LineImage line;
+  line.rows = 60;
+  const Image8 wide = draw(line);
+  Image8 copy(60, 100);
+  for (int r = 0; r < 60; ++r) std::copy_n(wide.row(r), 100, copy.row(r));
+  const ImageView8 part{wide.view().data, 60, 100, 1, wide.stride()};
+  EXPECT_EQ(detect_stripe(part, {}, {}).position, detect_stripe(copy.view(), {}, {}).position);
+}
+
 TEST(StripeDetector, ChoosesTheColourChannel) {
   LineImage line;
   const Image8 red = draw(line);
