@@ -21,18 +21,24 @@ struct WorkVolume {
   std::optional<double> min_depth;   ///< depth in the camera frame [m]
   std::optional<double> max_depth;   ///< depth in the camera frame [m]
 
+  /// Whether a point is kept; points on a bound are. `depth` is its z in the camera frame [m].
   bool contains(const Eigen::Vector3d& x_in_scan, double depth) const;
+
+  /// Throws Error when nothing would be kept: no radius, or a least value above its greatest.
+  void check() const;
 };
 
 /// A run of the same axis programme over the bare bed, frame by frame. Stripes are measured against
-/// it, and rows that show bare bed in both runs take out the shift between the runs.
+/// it, and rows that show bare bed in both runs take out the shift between the runs. Rows are image
+/// columns for a stripe that runs per column. No background is taken off the bed's frames.
 struct ZeroLine {
-  std::vector<std::filesystem::path> frames;  ///< one per axis position
-  std::vector<std::pair<int, int>> bed_rows;  ///< first and last row of bare bed [px]
+  std::vector<std::filesystem::path> frames;  ///< lit images, one per axis position
+  std::vector<std::pair<int, int>> bed_rows;  ///< first and last row of bare bed, both in [px]
   double bed_position = 0;                    ///< where the bed's line should lie [px]
 };
 
-/// How frames with and without the laser follow each other in one sequence.
+/// How frames with and without the laser follow each other in one sequence. A last frame without
+/// its partner is left out.
 enum class Alternation {
   kNone,     ///< `frames` holds lit frames only
   kOnFirst,  ///< lit, dark, lit, dark, ...
@@ -44,9 +50,10 @@ struct Capture {
   std::filesystem::path file;      ///< the capture.toml it was read from
   std::filesystem::path rig_file;  ///< the rig it names
   Rig rig;
-  std::size_t laser = 0;                          ///< index of the sheet that is lit [1]
-  std::vector<std::filesystem::path> frames;      ///< images, or one video
-  std::vector<std::filesystem::path> background;  ///< laser off; empty, one for all, or one each
+  std::size_t laser = 0;                      ///< index of the sheet that is lit [1]
+  std::vector<std::filesystem::path> frames;  ///< images, or one video
+  /// Laser off: empty, one image for all frames, one each, or a video with one each.
+  std::vector<std::filesystem::path> background;
   Alternation alternation = Alternation::kNone;
   std::vector<double> positions;  ///< of the axis, one per lit frame [rad or m]
   double frame_interval = 0;      ///< time between positions, 0 = unknown [s]

@@ -37,6 +37,10 @@ void read_frames(TomlTable table, const OptionalPath& frames_folder, Capture& ca
           table.where("off"),
           ": alternating frames bring their own background; drop one of the two");
   capture.frame_interval = table.number_if("interval_s").value_or(0);
+  require(capture.frame_interval >= 0,
+          table.where("interval_s"),
+          ": expected a time of 0 or more, got ",
+          capture.frame_interval);
   if (const auto zero = table.text_if("zero_line")) {
     capture.zero_line = ZeroLine{};
     capture.zero_line->frames = list_frames(base, *zero);
@@ -73,14 +77,23 @@ void read_positions(std::optional<TomlTable> table, std::size_t count, Capture& 
   table->finish();
 }
 
+int whole_pixels(double value, const std::string& where) {
+  require(value == std::round(value) && std::abs(value) <= 100000,
+          where,
+          ": expected whole pixels, got ",
+          value);
+  return static_cast<int>(value);
+}
+
 ImageRegion read_region(TomlTable& table) {
   if (!table.has("region_px")) return {};
+  const std::string where = table.where("region_px");
   const std::vector<double> r = table.numbers("region_px");
-  require(r.size() == 4, table.where("region_px"), ": expected [x, y, width, height]");
-  return {static_cast<int>(r[0]),
-          static_cast<int>(r[1]),
-          static_cast<int>(r[2]),
-          static_cast<int>(r[3])};
+  require(r.size() == 4, where, ": expected [x, y, width, height]");
+  return {whole_pixels(r[0], where),
+          whole_pixels(r[1], where),
+          whole_pixels(r[2], where),
+          whole_pixels(r[3], where)};
 }
 
 StripeOptions read_stripe(TomlTable table, StripeDirection direction) {
@@ -112,6 +125,7 @@ WorkVolume read_volume(TomlTable table) {
   volume.min_depth = length_if(table, "min_depth_mm");
   volume.max_depth = length_if(table, "max_depth_mm");
   table.finish();
+  volume.check();
   return volume;
 }
 
@@ -119,9 +133,10 @@ void read_zero_line(TomlTable table, Capture& capture) {
   require(capture.zero_line.has_value(),
           table.where("bed_rows"),
           ": [zero_line] needs its frames named in [frames], key zero_line");
+  const std::string where = table.where("bed_rows");
   for (const Eigen::Vector2d& rows : table.pairs("bed_rows")) {
-    capture.zero_line->bed_rows.emplace_back(static_cast<int>(rows.x()),
-                                             static_cast<int>(rows.y()));
+    capture.zero_line->bed_rows.emplace_back(whole_pixels(rows.x(), where),
+                                             whole_pixels(rows.y(), where));
   }
   capture.zero_line->bed_position = table.number("bed_position_px");
   table.finish();
@@ -156,9 +171,14 @@ void check_counts(const Capture& capture, std::size_t lit) {
           lit);
 }
 
-/// The laser the capture names, or the only one.
+/// The laser the capture names; it may stay silent where the rig has only one.
 std::size_t read_laser(TomlTable& table, const Rig& rig) {
   const std::optional<std::string> name = table.text_if("laser");
+  require(name.has_value() || rig.lasers.size() == 1,
+          table.where("laser"),
+          ": missing; the rig has ",
+          rig.lasers.size(),
+          " lasers, so the capture must name the one that is lit");
   if (!name) return 0;
   for (std::size_t i = 0; i < rig.lasers.size(); ++i) {
     if (rig.lasers[i].name == *name) return i;
@@ -191,6 +211,9 @@ Capture read_capture(const std::filesystem::path& path, const OptionalPath& fram
     pose->finish();
   }
   read_frames(std::move(frames), frames_folder, capture);
+  require(zero_line.has_value() || !capture.zero_line,
+          capture.file.string(),
+          ": zero_line frames need a table [zero_line] with bed_rows and bed_position_px");
   if (zero_line) read_zero_line(std::move(*zero_line), capture);
   const std::size_t lit = lit_frame_count(capture);
   read_positions(std::move(positions), lit, capture);

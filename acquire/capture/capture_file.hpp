@@ -10,8 +10,9 @@ namespace facula {
 
 /// Reads capture.toml (or the capture.toml of a folder) and the rig it names. Relative paths count
 /// from the file's folder; `frames_folder`, when given, is where all frames lie instead. Throws
-/// Error on a missing file, an unknown key (with the nearest known one), frames that are missing,
-/// or a number of frames that differs from the number of positions.
+/// Error on a missing file, an unknown key (with the nearest known one), a value out of range,
+/// frames that are missing, a number of frames that differs from the number of positions, or
+/// several lasers in the rig and none named.
 Capture read_capture(const std::filesystem::path& path,
                      const std::optional<std::filesystem::path>& frames_folder = std::nullopt);
 

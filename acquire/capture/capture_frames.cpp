@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/capture/frame_source.hpp>
+#include <facula/acquire/core/error.hpp>
 
 namespace facula {
 
 CaptureFrames::CaptureFrames(const Capture& capture)
     : frames_(open_frames(capture.frames)), alternation_(capture.alternation) {
-  if (capture.background.size() == 1 && frames_->size() != 1) {
-    common_background_ = read_image(capture.background[0]);
-  } else if (!capture.background.empty()) {
-    background_ = open_frames(capture.background);
+  if (capture.background.empty()) return;
+  background_ = open_frames(capture.background);
+  if (background_->size() == 1) {
+    common_background_ = background_->read(0);
+    background_.reset();
+    return;
   }
+  require(background_->size() == size(),
+          "expected one background for all frames or one each, got ",
+          background_->size(),
+          " for ",
+          size(),
+          " frames");
 }
 
 std::size_t CaptureFrames::size() const {

@@ -29,11 +29,13 @@ class FrameSource {
 std::unique_ptr<FrameSource> open_frames(const std::vector<std::filesystem::path>& files);
 
 /// The frames of a capture: lit(i), and dark(i) which is empty where the capture has no background.
+/// Both throw Error where a frame cannot be read. Calls may run from several threads.
 class CaptureFrames {
  public:
+  /// Throws Error when there are no frames, or backgrounds but neither one nor one each.
   explicit CaptureFrames(const Capture& capture);
 
-  std::size_t size() const;
+  std::size_t size() const;  ///< lit frames; of alternating frames every pair counts once
   Image8 lit(std::size_t i) const;
   Image8 dark(std::size_t i) const;
 
@@ -44,7 +46,8 @@ class CaptureFrames {
   Alternation alternation_;
 };
 
-/// One image, grey or colour, 8 bit. Throws Error when the file is missing, torn or no image.
+/// One image, grey or blue-green-red, 8 bit: of 16 bits the upper 8 are kept, an alpha channel is
+/// dropped. Throws Error when the file is missing, torn or no image.
 Image8 read_image(const std::filesystem::path& path);
 
 /// Writes an image (.png or .jpg), whole or not at all.

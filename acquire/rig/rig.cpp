@@ -2,12 +2,23 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/rig/rig.hpp>
 
+#include <set>
+
 namespace facula {
 
 void Rig::check() const {
   camera.check();
   require(!lasers.empty(), "rig '", name, "': expected at least one [[laser]], got none");
-  for (const LaserPlane& laser : lasers) laser.check();
+  std::set<std::string> names;
+  for (const LaserPlane& laser : lasers) {
+    laser.check();
+    require(names.insert(laser.name).second,
+            "rig '",
+            name,
+            "': two [[laser]] are called '",
+            laser.name,
+            "'; captures tell them apart by their names");
+  }
   axis.check();
 }
 

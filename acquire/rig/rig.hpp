@@ -21,7 +21,7 @@ enum class StripeDirection {
 struct Rig {
   std::string name = "rig";
   Camera camera;
-  std::vector<LaserPlane> lasers;
+  std::vector<LaserPlane> lasers;  ///< at least one, each with a name of its own
   Axis axis;
   StripeDirection stripe_direction = StripeDirection::kPerRow;
 

@@ -78,7 +78,7 @@ std::optional<int> TomlTable::integer_if(const std::string& key) {
   const toml::node* node = impl_->find(key);
   if (node == nullptr) return std::nullopt;
   const auto value = node->value<std::int64_t>();
-  require(node->is_integer() && value.has_value() && std::abs(*value) < 1000000000,
+  require(node->is_integer() && value.has_value() && *value > -1000000000 && *value < 1000000000,
           where(key),
           ": expected a whole number");
   return static_cast<int>(*value);
@@ -136,6 +136,7 @@ std::vector<Eigen::Vector2d> TomlTable::pairs(const std::string& key) {
             where(key),
             ": expected pairs of numbers such as [0, 100]");
     result.emplace_back(*pair->get(0)->value<double>(), *pair->get(1)->value<double>());
+    require(result.back().allFinite(), where(key), ": expected finite numbers only");
   }
   return result;
 }
@@ -207,6 +208,9 @@ TomlTable TomlTable::table(const std::string& key) {
 
 RigidTransform TomlTable::pose() {
   RigidTransform result;
+  require(!has("rotation") || !has("quaternion_xyzw"),
+          where("rotation"),
+          ": stands beside quaternion_xyzw; drop one of the two");
   if (has("rotation")) {
     const std::vector<double> r = numbers("rotation");
     require(r.size() == 9, where("rotation"), ": expected 9 numbers, got ", r.size());

@@ -41,7 +41,7 @@ class TomlTable {
   std::optional<bool> boolean_if(const std::string& key);
   std::optional<Eigen::Vector3d> vector3_if(const std::string& key);
 
-  /// A list of pairs of numbers, as in [[0, 10], [20, 30]]; empty when the key is absent.
+  /// A list of pairs of finite numbers, as in [[0, 10], [20, 30]]; empty when the key is absent.
   std::vector<Eigen::Vector2d> pairs(const std::string& key);
 
   /// A table below this one.
@@ -55,7 +55,8 @@ class TomlTable {
   /// `quaternion_xyzw`; what is absent is zero or the identity.
   RigidTransform pose();
 
-  /// Throws Error when the table or one read from it holds a key that was never asked for.
+  /// Throws Error when the table holds a key that was never asked for. Tables read from it have a
+  /// finish() of their own.
   void finish() const;
 
   /// "file.toml, key 'camera.fx_px'": how complaints name a key of this table.

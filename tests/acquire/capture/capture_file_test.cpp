@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <numbers>
 #include <string>
 
@@ -67,6 +68,11 @@ kind = "pan"
   TemporaryFolder folder_;
 };
 
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 TEST_F(CaptureFile, CountsFramesAsPeopleDo) {
   const Capture capture = read_capture(folder_.path());
   ASSERT_EQ(capture.frames.size(), 12U);
@@ -116,6 +122,99 @@ TEST_F(CaptureFile, PairsAlternatingFrames) {
   EXPECT_EQ(frames.dark(2).pixels, read_image(folder_ / "lit5.png").pixels);
 }
 
+TEST_F(CaptureFile, LeavesOutALastFrameWithoutItsPartner) {
+  write_frame("lit13.png", 13);
+  write_capture("on = \"lit*.png\"\nalternating = \"on-first\"", "step_deg = 2");
+  const CaptureFrames frames(read_capture(folder_.path()));
+  ASSERT_EQ(frames.size(), 6U);
+  EXPECT_EQ(frames.lit(5).pixels, read_image(folder_ / "lit11.png").pixels);
+  EXPECT_EQ(frames.dark(5).pixels, read_image(folder_ / "lit12.png").pixels);
+}
+
+TEST_F(CaptureFile, TakesOneBackgroundForAllFramesOrOneEach) {
+  write_frame("dark.png", 1);
+  write_capture("on = \"lit*.png\"\noff = \"dark.png\"", "step_deg = 2");
+  const Image8 dark = read_image(folder_ / "dark.png");
+  EXPECT_EQ(CaptureFrames(read_capture(folder_.path())).dark(11).pixels, dark.pixels);
+  write_capture("on = \"lit1.png\"\noff = \"dark.png\"", "step_deg = 2");
+  EXPECT_EQ(CaptureFrames(read_capture(folder_.path())).dark(0).pixels, dark.pixels);
+  write_capture("on = \"lit*.png\"\noff = \"lit1?.png\"", "step_deg = 2");
+  EXPECT_TRUE(complains_of("one background for all frames or one each, got 3 for 12"));
+}
+
+TEST_F(CaptureFile, TakesTheLaserThatTheCaptureNames) {
+  const std::string one_laser = read_text(folder_ / "rig.toml");
+  folder_.write("rig.toml",
+                one_laser + "[[laser]]\nname = \"left\"\nnormal = [1, 0, 0]\ndistance_mm = -80\n");
+  EXPECT_TRUE(complains_of("'laser': missing; the rig has 2 lasers"));
+  const std::string capture = read_text(folder_ / "capture.toml");
+  folder_.write("capture.toml", "laser = \"left\"\n" + capture);
+  EXPECT_EQ(read_capture(folder_.path()).laser, 1U);
+  folder_.write("capture.toml", "laser = \"right\"\n" + capture);
+  EXPECT_TRUE(complains_of("the rig has no laser 'right'"));
+  folder_.write("rig.toml", one_laser + "[[laser]]\nnormal = [1, 0, 0]\ndistance_mm = -80\n");
+  EXPECT_TRUE(complains_of("two [[laser]] are called 'laser'"));
+}
+
+TEST_F(CaptureFile, RefusesValuesOutOfRange) {
+  write_capture("on = \"lit*.png\"\ninterval_s = -1", "step_deg = 2");
+  EXPECT_TRUE(complains_of("'frames.interval_s': expected a time of 0 or more"));
+  write_capture("on = \"lit*.png\"", "step_deg = 2");
+  const std::string good = read_text(folder_ / "capture.toml");
+  for (const char* region : {"[0.5, 0, 0, 0]", "[0, 0, 1e300, 0]"}) {
+    folder_.write("capture.toml", good + "region_px = " + region + "\n");
+    EXPECT_TRUE(complains_of("'stripe.region_px': expected whole pixels"));
+  }
+  folder_.write("capture.toml", good + "min_run = -9223372036854775808\n");
+  EXPECT_TRUE(complains_of("'stripe.min_run': expected a whole number"));
+  folder_.write("capture.toml", good + "[volume]\nmin_z_mm = 10\nmax_z_mm = 5\n");
+  EXPECT_TRUE(complains_of("min_z_mm below max_z_mm, got 10 and 5 mm"));
+}
+
+TEST_F(CaptureFile, AsksForBothHalvesOfAZeroLine) {
+  write_capture("on = \"lit*.png\"\nzero_line = \"lit*.png\"", "step_deg = 2");
+  const std::string frames_only = read_text(folder_ / "capture.toml");
+  EXPECT_TRUE(complains_of("need a table [zero_line]"));
+  folder_.write("capture.toml",
+                frames_only + "[zero_line]\nbed_rows = [[0, inf]]\nbed_position_px = 30\n");
+  EXPECT_TRUE(complains_of("'zero_line.bed_rows': expected finite numbers"));
+  folder_.write("capture.toml",
+                frames_only + "[zero_line]\nbed_rows = [[0, 3]]\nbed_position_px = 30\n");
+  EXPECT_TRUE(complains_of("lit1.png': only 4 bed rows show the stripe"));
+  write_capture("on = \"lit*.png\"", "step_deg = 2");
+  folder_.write("capture.toml",
+                read_text(folder_ / "capture.toml") + "[zero_line]\nbed_position_px = 30\n");
+  EXPECT_TRUE(complains_of("needs its frames named"));
+}
+
+/// All lines stand where the bed's line should: every frame then shows the range of that one pixel.
+TEST_F(CaptureFile, MeasuresAgainstTheZeroLine) {
+  write_capture("on = \"lit*.png\"\nzero_line = \"lit*.png\"", "step_deg = 2");
+  folder_.write("capture.toml",
+                read_text(folder_ / "capture.toml") +
+                    "[zero_line]\nbed_rows = [[0, 47]]\nbed_position_px = 41.5\n");
+  const ExtractResult result = extract_scan(read_capture(folder_.path()));
+  ASSERT_EQ(result.zero_line_shift.size(), 12U);
+  const double z = 60 * 0.05 / (41.5 - 31.5);
+  for (int col = 0; col < 12; ++col) {
+    const std::size_t middle = result.scan.index(23, col);
+    EXPECT_NEAR(result.zero_line_shift[static_cast<std::size_t>(col)], 0, 0.05);
+    EXPECT_NEAR(static_cast<double>(result.scan.range[middle]), std::hypot(0.05, z), 0.004 * z);
+  }
+}
+
+TEST_F(CaptureFile, KeepsWhatLiesInTheWorkVolume) {
+  write_capture("on = \"lit*.png\"", "step_deg = 2");
+  const std::string good = read_text(folder_ / "capture.toml");
+  // z = f s / x: the lines of frames 1 to 12 lie 9.5 to 20.5 px beside the middle.
+  const double least = 60 * 50 / 15.0;
+  folder_.write("capture.toml", good + "[volume]\nmin_depth_mm = " + std::to_string(least) + "\n");
+  const ExtractResult result = extract_scan(read_capture(folder_.path()));
+  EXPECT_EQ(result.scan.valid_count(), 6U * 48U);
+  EXPECT_EQ(result.outside_volume, 6U * 48U);
+  EXPECT_EQ(result.stripes_seen, 12U * 48U);
+}
+
 TEST_F(CaptureFile, ReadsPositionsFromCsv) {
   std::string csv = "frame,position_deg\r\n";
   for (int i = 0; i < 12; ++i) csv += std::to_string(i) + ", " + std::to_string(i * 5) + ".5\r\n";
@@ -158,6 +257,19 @@ TEST_F(CaptureFile, SaysWhichFrameIsMissingTornOrNoImage) {
 TEST_F(CaptureFile, SaysWhenARevoluteAxisHasNoPositions) {
   folder_.write("capture.toml", "rig = \"rig.toml\"\n[frames]\non = \"lit*.png\"\n");
   EXPECT_TRUE(complains_of("needs a table [positions]"));
+}
+
+TEST(WorkVolume, KeepsWhatIsWithinItsBounds) {
+  WorkVolume volume;
+  EXPECT_TRUE(volume.contains({9, 9, 9}, 99));
+  volume = {.max_radius = 5, .min_z = -1, .max_z = 2, .min_depth = 0.5, .max_depth = 3};
+  EXPECT_TRUE(volume.contains({3, 4, 2}, 3));  // on all its upper bounds
+  EXPECT_TRUE(volume.contains({0, 0, -1}, 0.5));
+  EXPECT_FALSE(volume.contains({3, 4.1, 0}, 1));
+  EXPECT_FALSE(volume.contains({0, 0, 2.1}, 1));
+  EXPECT_FALSE(volume.contains({0, 0, -1.1}, 1));
+  EXPECT_FALSE(volume.contains({0, 0, 0}, 0.4));
+  EXPECT_FALSE(volume.contains({0, 0, 0}, 3.1));
 }
 
 TEST_F(CaptureFile, RoundTripsAxisPositions) {
