@@ -150,7 +150,8 @@ class FirZeroCrossing : public RowDetector {
   }
 
   /// Amplitude, width, uncertainty and misfit at the position found. With P the smoothed height and
-  /// L the smoothed bend of a Gaussian line of width w: P / L = w^2 + sigma^2.
+  /// L the smoothed bend of a Gaussian line of width w, d beside its middle, and v = w^2 + sigma^2:
+  /// P = P0 exp(-d^2 / 2v) and P / L = v / (1 - d^2 / v).
   std::optional<StripeCandidate> describe(const StripeSignal& signal, int r, float position) const {
     const float* row = signal.row(r);
     const int cols = signal.cols();
@@ -160,14 +161,21 @@ class FirZeroCrossing : public RowDetector {
     StripeCandidate found;
     found.position = position;
     found.background = surroundings(row, c, cols);
-    const float height = filtered(kernels_.smooth, row, c, cols) - found.background;
-    const float variance = height / bend;
+    const float beside = filtered(kernels_.smooth, row, c, cols) - found.background;
+    const float ratio = beside / bend;
+    const float d2 = (position - static_cast<float>(c)) * (position - static_cast<float>(c));
+    const float variance =
+        0.5F * (ratio + std::sqrt(std::max(0.0F, ratio * ratio - 4 * ratio * d2)));
+    if (!(variance > 0)) return std::nullopt;
+    const float height = beside * std::exp(0.5F * d2 / variance);
+    const float top_bend = height / variance;
     found.width = std::sqrt(std::max(0.0F, variance - sigma_ * sigma_));
     found.amplitude = found.width > 0 ? height * std::sqrt(variance) / found.width : 0;
-    found.snr_per_noise = bend / kernels_.curvature_norm;
-    found.sigma_per_noise = kernels_.slope_norm / bend;
+    found.snr_per_noise = top_bend / kernels_.curvature_norm;
+    found.sigma_per_noise = kernels_.slope_norm / top_bend;
+    found.position_share = position_share(found.width);
     found.saturated = signal.clipped(r, std::clamp(c, 0, cols - 1));
-    found.residual = misfit(row, cols, found);
+    measure_misfit(row, cols, found);
     return found;
   }
 
@@ -184,14 +192,21 @@ class FirZeroCrossing : public RowDetector {
     return count > 0 ? sum / static_cast<float>(count) : 0;
   }
 
+  /// The filter's slope squared goes as x^2 exp(-x^2 / sigma^2), the line as exp(-x^2 / 2 w^2): the
+  /// integral of their product over that of the first is (1 + sigma^2 / 2 w^2)^(-3/2).
+  float position_share(float width) const {
+    const float w = std::max(0.5F, width);
+    return std::pow(1 + sigma_ * sigma_ / (2 * w * w), -1.5F);
+  }
+
   /// Mean square that a Gaussian of the found position and width leaves over +-3 widths, its height
   /// and level fitted by least squares; four parameters taken off.
-  static float misfit(const float* row, int cols, const StripeCandidate& found) {
+  static void measure_misfit(const float* row, int cols, StripeCandidate& found) {
     const float width = std::clamp(found.width, 0.5F, static_cast<float>(cols));
     const int first = std::max(0, static_cast<int>(std::ceil(found.position - 3 * width)));
     const int last = std::min(cols - 1, static_cast<int>(std::floor(found.position + 3 * width)));
     const int count = last - first + 1;
-    if (count <= 4) return 0;
+    if (count <= 4) return;
     double g1 = 0;
     double g2 = 0;
     double s1 = 0;
@@ -210,7 +225,8 @@ class FirZeroCrossing : public RowDetector {
     const double spread = g2 - g1 * g1 / count;
     const double covariance = gs - g1 * s1 / count;
     const double left = s2 - s1 * s1 / count - covariance * covariance / spread;
-    return static_cast<float>(std::max(0.0, left) / (count - 4));
+    found.residual = static_cast<float>(std::max(0.0, left) / (count - 4));
+    found.residual_share = static_cast<float>(g1 / count);
   }
 
   float sigma_;

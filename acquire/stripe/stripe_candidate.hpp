@@ -18,7 +18,10 @@ struct StripeCandidate {
   float snr_per_noise = 0;    ///< response over its standard deviation for noise of 1 DN [1/DN]
   float sigma_per_noise = 0;  ///< standard deviation of position for noise of 1 DN [px/DN]
   float residual = 0;         ///< mean square left by the fitted profile [DN^2]
-  bool saturated = false;     ///< the core is clipped
+  float residual_share = 0;  ///< of a variance that follows the signal: its mean where the residual
+                             ///< is taken over its value at the amplitude [1]
+  float position_share = 0;  ///< the same where the position is taken from [1]
+  bool saturated = false;    ///< the core is clipped
 };
 
 /// What a detector is: a way to find the strongest stripe in one row of a signal.

@@ -98,13 +98,19 @@ void drop_short_runs(Candidates& candidates, const StripeOptions& options) {
   end_run();
 }
 
+// Median over mean of a sum of about 8 independent squares (Wilson and Hilferty 1931): a residual
+// is what some 9 pixels leave, of which the outer ones count less.
+constexpr float kMedianOfSquares = 0.92F;
+
 /// How the variance grows with the signal (photon noise, speckle): the median over the stripes of
-/// (misfit - noise^2) / amplitude, at least 0 [DN]. Clipped stripes say nothing about it.
+/// (misfit - noise^2) over the mean signal under it, at least 0 [DN]. Clipped stripes say nothing
+/// about it.
 float signal_noise_gain(const Candidates& candidates, float noise) {
   std::vector<float> gains;
   for (const auto& found : candidates) {
-    if (found && !found->saturated && found->amplitude > 0) {
-      gains.push_back((found->residual - noise * noise) / found->amplitude);
+    if (found && !found->saturated && found->amplitude > 0 && found->residual_share > 0) {
+      gains.push_back((found->residual / kMedianOfSquares - noise * noise) /
+                      (found->amplitude * found->residual_share));
     }
   }
   if (gains.size() < 16) return 0;
@@ -115,10 +121,14 @@ constexpr float kLeastMisfit = 2.5F;  // over the expected mean square: beyond c
 
 void store(const StripeCandidate& found, float gain, std::size_t r, StripeProfile& profile) {
   const float noise = noise_about(found, profile.noise);
-  float variance = noise * noise + gain * found.amplitude;
+  const float photons = gain * found.amplitude;
+  const float expected = noise * noise + photons * found.residual_share;
+  float variance = noise * noise + photons * found.position_share;
   // A profile that is no single Gaussian (a depth edge cuts it, two surfaces share it) says so by
   // its misfit; the position is then uncertain in the same measure.
-  if (!found.saturated && found.residual > kLeastMisfit * variance) variance = found.residual;
+  if (!found.saturated && found.residual > kLeastMisfit * expected) {
+    variance = std::max(variance, found.residual);
+  }
   profile.seen[r] = 1;
   profile.position[r] = found.position;
   profile.sigma[r] = found.sigma_per_noise * std::sqrt(variance);
