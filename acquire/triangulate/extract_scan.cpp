@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/capture/frame_source.hpp>
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/median.hpp>
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/acquire/triangulate/extract_scan.hpp>
 #include <facula/acquire/triangulate/triangulate.hpp>
@@ -24,6 +25,27 @@ struct FrameFigures {
   std::vector<float> point_sigmas;
 };
 
+void check_capture(const Capture& capture, std::size_t frames) {
+  require(frames == capture.positions.size() && frames > 0,
+          "expected one axis position per frame, got ",
+          capture.positions.size(),
+          " positions for ",
+          frames,
+          " frames");
+  require(capture.laser < capture.rig.lasers.size(),
+          "expected a lit laser below ",
+          capture.rig.lasers.size(),
+          ", the number in the rig, got ",
+          capture.laser);
+  require(capture.stripe.direction == capture.rig.stripe_direction,
+          "expected the stripe to be searched along the direction that the rig says");
+  require(!capture.zero_line || capture.zero_line->frames.size() == frames,
+          "expected one zero_line frame per frame, got ",
+          capture.zero_line ? capture.zero_line->frames.size() : 0,
+          " for ",
+          frames);
+}
+
 void check_frame(const Image8& frame, const Capture& capture, std::size_t i) {
   const Camera& camera = capture.rig.camera;
   require(frame.cols == camera.width && frame.rows == camera.height,
@@ -39,6 +61,17 @@ void check_frame(const Image8& frame, const Capture& capture, std::size_t i) {
           frame.rows);
 }
 
+double move_onto_bed(const Capture& capture, std::size_t i, StripeProfile& profile) {
+  const ZeroLine& zero_line = *capture.zero_line;
+  const Image8 bed = read_image(zero_line.frames[i]);
+  check_frame(bed, capture, i);
+  try {
+    return measure_against_bed(zero_line, detect_stripe(bed.view(), {}, capture.stripe), profile);
+  } catch (const Error& error) {
+    fail("frame ", i, " against '", zero_line.frames[i].string(), "': ", error.what());
+  }
+}
+
 StripeProfile stripe_of_frame(const Capture& capture,
                               const CaptureFrames& frames,
                               std::size_t i,
@@ -46,12 +79,7 @@ StripeProfile stripe_of_frame(const Capture& capture,
   const Image8 lit = frames.lit(i);
   check_frame(lit, capture, i);
   StripeProfile profile = detect_stripe(lit.view(), frames.dark(i).view(), capture.stripe);
-  if (capture.zero_line) {
-    const Image8 bed = read_image(capture.zero_line->frames.at(i));
-    check_frame(bed, capture, i);
-    figures.shift = measure_against_bed(
-        *capture.zero_line, detect_stripe(bed.view(), {}, capture.stripe), profile);
-  }
+  if (capture.zero_line) figures.shift = move_onto_bed(capture, i, profile);
   figures.seen = profile.seen_count();
   figures.noise = profile.noise;
   return profile;
@@ -100,10 +128,7 @@ double median_of(const std::vector<FrameFigures>& figures,
   for (const FrameFigures& f : figures) {
     all.insert(all.end(), (f.*values).begin(), (f.*values).end());
   }
-  if (all.empty()) return 0;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return static_cast<double>(*middle);
+  return static_cast<double>(median(all));
 }
 
 void sum_up(const Capture& capture, std::vector<FrameFigures>& figures, ExtractResult& result) {
@@ -115,9 +140,7 @@ void sum_up(const Capture& capture, std::vector<FrameFigures>& figures, ExtractR
     noises.push_back(f.noise);
     if (capture.zero_line) result.zero_line_shift.push_back(f.shift);
   }
-  const auto middle = noises.begin() + static_cast<std::ptrdiff_t>(noises.size() / 2);
-  std::nth_element(noises.begin(), middle, noises.end());
-  result.median_noise = static_cast<double>(*middle);
+  result.median_noise = static_cast<double>(median(noises));
   result.median_pixel_sigma = median_of(figures, &FrameFigures::pixel_sigmas);
   result.median_width = median_of(figures, &FrameFigures::widths);
   result.median_point_sigma = median_of(figures, &FrameFigures::point_sigmas);
@@ -127,12 +150,7 @@ void sum_up(const Capture& capture, std::vector<FrameFigures>& figures, ExtractR
 
 ExtractResult extract_scan(const Capture& capture, const ExtractOptions& options) {
   const CaptureFrames frames(capture);
-  require(frames.size() == capture.positions.size() && frames.size() > 0,
-          "expected one axis position per frame, got ",
-          capture.positions.size(),
-          " positions for ",
-          frames.size(),
-          " frames");
+  check_capture(capture, frames.size());
   const bool per_row = capture.stripe.direction == StripeDirection::kPerRow;
   const int rows = per_row ? capture.rig.camera.height : capture.rig.camera.width;
 

@@ -20,7 +20,7 @@ struct ExtractOptions {
 struct ExtractResult {
   PolarScan scan;
   std::size_t frames = 0;               ///< [1]
-  std::size_t rows_searched = 0;        ///< image rows over all frames [1]
+  std::size_t rows_searched = 0;        ///< rows of the scan over all frames [1]
   std::size_t stripes_seen = 0;         ///< rows in which a stripe was found [1]
   std::size_t outside_volume = 0;       ///< stripes dropped by the work volume or the geometry [1]
   std::size_t saturated = 0;            ///< stripes with a clipped core [1]
@@ -33,7 +33,8 @@ struct ExtractResult {
 
 /// The acquisition on one page: frames -> channel and background -> stripe per row -> ray meets
 /// sheet -> axis -> PolarScan. Rows of the scan are image rows (image columns for a stripe that
-/// runs per column). The result does not depend on the number of threads.
+/// runs per column). The result does not depend on the number of threads. Throws Error when a frame
+/// cannot be read or is not of the camera's size, or the capture contradicts itself.
 ExtractResult extract_scan(const Capture& capture, const ExtractOptions& options = {});
 
 }  // namespace facula

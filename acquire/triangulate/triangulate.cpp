@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/error.hpp>
 #include <facula/acquire/triangulate/triangulate.hpp>
 
 #include <cmath>
@@ -20,6 +21,11 @@ std::optional<TriangulatedPoint> triangulate(const Rig& rig,
                                              std::size_t laser,
                                              const Eigen::Vector2d& pixel,
                                              double pixel_sigma) {
+  require(laser < rig.lasers.size(),
+          "expected a laser below ",
+          rig.lasers.size(),
+          ", the number in the rig, got ",
+          laser);
   const std::optional<Eigen::Vector3d> point = point_on_sheet(rig, laser, pixel);
   if (!point) return std::nullopt;
   // The derivative across the line by a central difference of one pixel; one-sided at infinity.

@@ -15,9 +15,10 @@ struct TriangulatedPoint {
   double sigma = 0;             ///< 1 standard deviation along the ray [m]
 };
 
-/// Undistort, then ray meets sheet. `pixel_sigma` [px] is the stripe's standard deviation across
-/// the line; it is carried to the ray by the derivative of the intersection. None where the ray
-/// misses the sheet.
+/// Undistort, then ray meets sheet `laser` (counted from 0) of the rig. `pixel_sigma` [px] is the
+/// standard deviation of the stripe's position along x for a stripe per row, along y per column; it
+/// is carried to the ray by the derivative of the intersection. None where the ray misses the sheet
+/// or the distortion cannot be inverted. Throws Error when the rig has no such laser.
 std::optional<TriangulatedPoint> triangulate(const Rig& rig,
                                              std::size_t laser,
                                              const Eigen::Vector2d& pixel,
