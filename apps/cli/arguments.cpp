@@ -41,6 +41,11 @@ long long parsed_whole(const std::string& name, const std::string& word, long lo
   return *value;
 }
 
+std::filesystem::path parsed_path(const std::string& name, const std::string& word) {
+  if (word.empty()) fail_usage(name, ": expected a path, got an empty word; write one");
+  return word;
+}
+
 std::string typed_in(double value, Unit unit) {
   // Nine digits hide the rounding of the unit's factor: 0.02 m is shown as 20 mm.
   const double typed = value / unit.factor;
@@ -76,7 +81,9 @@ void Arguments::input(const std::string& name,
                       std::filesystem::path& target,
                       const std::string& help) {
   specs_.push_back(spec(name, "PATH", help));
-  specs_.back().set = [&target](const Words& words) { target = resolved_input(words.front()); };
+  specs_.back().set = [&target, name](const Words& words) {
+    target = resolved_input(parsed_path(name, words.front()));
+  };
 }
 
 void Arguments::inputs(const std::string& name,
@@ -84,8 +91,8 @@ void Arguments::inputs(const std::string& name,
                        const std::string& help) {
   specs_.push_back(spec(name, "PATH", help));
   specs_.back().repeatable = true;
-  specs_.back().set = [&target](const Words& words) {
-    for (const std::string& word : words) target.push_back(resolved_input(word));
+  specs_.back().set = [&target, name](const Words& words) {
+    for (const std::string& word : words) target.push_back(resolved_input(parsed_path(name, word)));
   };
 }
 
@@ -93,7 +100,9 @@ void Arguments::output(const std::string& name,
                        std::filesystem::path& target,
                        const std::string& help) {
   specs_.push_back(spec(name, "PATH", help, target.string()));
-  specs_.back().set = [&target](const Words& words) { target = words.front(); };
+  specs_.back().set = [&target, name](const Words& words) {
+    target = parsed_path(name, words.front());
+  };
 }
 
 void Arguments::outputs(const std::string& name,
@@ -101,8 +110,8 @@ void Arguments::outputs(const std::string& name,
                         const std::string& help) {
   specs_.push_back(spec(name, "PATH", help));
   specs_.back().repeatable = true;
-  specs_.back().set = [&target](const Words& words) {
-    for (const std::string& word : words) target.emplace_back(word);
+  specs_.back().set = [&target, name](const Words& words) {
+    for (const std::string& word : words) target.push_back(parsed_path(name, word));
   };
 }
 

@@ -134,6 +134,17 @@ const Command* find_command(const std::vector<std::string>& words,
   return nullptr;
 }
 
+/// The one command whose first word that is: help for 'measure' is help for 'measure planes'.
+const Command* only_command_of(const std::string& word, const std::vector<Command>& commands) {
+  const Command* found = nullptr;
+  for (const Command& command : commands) {
+    if (!command.name.starts_with(word + " ")) continue;
+    if (found != nullptr) return nullptr;
+    found = &command;
+  }
+  return found;
+}
+
 int unknown_command(const std::vector<std::string>& words, const std::vector<Command>& commands) {
   std::vector<std::string> names;
   for (const Command& command : commands) {
@@ -170,6 +181,10 @@ int run_program(const std::vector<std::string>& words, const std::vector<Command
     }
     std::size_t taken = 0;
     const Command* command = find_command(words, commands, taken);
+    if (command == nullptr && words.size() > 1 && asks_for_help({words[1]})) {
+      command = only_command_of(words[0], commands);
+      taken = 1;
+    }
     if (command == nullptr) return unknown_command(words, commands);
     return guarded_run(*command, {words.begin() + static_cast<std::ptrdiff_t>(taken), words.end()});
   } catch (const std::exception& error) {

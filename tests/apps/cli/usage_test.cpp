@@ -93,6 +93,18 @@ TEST_F(Usage, MissingArgumentsAreNamed) {
   expect_usage_error(run("facula info one.pcd two.pcd"), "expected one FILE, got more");
 }
 
+TEST_F(Usage, EmptyPathsAreNamed) {
+  expect_usage_error(run("facula info data/rigs/head_fs1500.toml --json ''"), "--json");
+  expect_usage_error(run("facula info ''"), "FILE");
+  expect_usage_error(run("facula mesh a.pcd --out ''"), "--out");
+}
+
+TEST_F(Usage, HelpOfAFirstWordIsHelpOfItsOnlyCommand) {
+  const ProgramRun help = run("facula measure --help");
+  EXPECT_EQ(help.code, 0) << help.err;
+  EXPECT_EQ(help.out, run("facula measure planes --help").out);
+}
+
 TEST_F(Usage, MissingFileIsOneSentence) {
   for (const char* line : {"facula info nothing.pcd",
                            "facula extract nothing --out s.pcd",
