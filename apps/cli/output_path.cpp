@@ -56,6 +56,10 @@ void check_output(const fs::path& path, const std::vector<std::string>& extensio
           "expected a file name to write, got the folder '",
           path.string(),
           "'; add a file name");
+  require(!fs::exists(path, unknown) || fs::is_regular_file(path, unknown),
+          "expected a file name to write, got the device or pipe '",
+          path.string(),
+          "'; choose a file name");
   check_folder(folder_of(path), path);
 }
 
@@ -65,6 +69,10 @@ OutputFolder::OutputFolder(fs::path path, const std::string& mark, bool replace)
   std::error_code unknown;
   const bool taken = fs::exists(path_, unknown) &&
                      !(fs::is_directory(path_, unknown) && fs::is_empty(path_, unknown));
+  require(!fs::exists(path_, unknown) || fs::is_directory(path_, unknown),
+          "expected a new or empty folder to write, got the file '",
+          path_.string(),
+          "'; choose another name");
   const bool replaceable = replace && fs::exists(path_ / mark, unknown);
   require(!taken || replaceable,
           "expected a new or empty folder to write, got '",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/capture/capture_file.hpp>
+#include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/scan_file.hpp>
 #include <facula/acquire/triangulate/extract_scan.hpp>
 #include <facula/apps/cli/output_path.hpp>
@@ -86,6 +87,18 @@ void report(const ExtractResult& result, Figures& figures) {
   report_zero_line(result.zero_line_shift, figures);
 }
 
+void require_stripes(const ExtractResult& result) {
+  require(result.stripes_seen > 0,
+          "expected the laser line in the frames, got none in ",
+          result.frames,
+          " of them; check that the laser was on, then try another --channel, the width of the "
+          "line as --sigma-px or a lower --min-snr");
+  require(result.scan.valid_count() > 0,
+          "expected points within the capture's volume, got none of ",
+          result.stripes_seen,
+          " rows with a stripe; check [volume] of the capture and the rig");
+}
+
 void run(const ExtractArguments& a, Session& session) {
   for (const auto& path : a.out) check_output(path, {".pcd", ".ply", ".asc"});
   const auto frames = a.frames.empty() ? std::nullopt : std::optional(a.frames);
@@ -93,6 +106,7 @@ void run(const ExtractArguments& a, Session& session) {
   apply_overrides(a, capture.stripe);
   const ExtractResult result =
       extract_scan(capture, {session.num_threads, session.progress("reading stripes")});
+  require_stripes(result);
   for (const auto& path : a.out) write_scan(path, result.scan);
   report(result, session.figures);
   for (std::size_t i = 0; i < a.out.size(); ++i) {

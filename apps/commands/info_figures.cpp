@@ -150,7 +150,7 @@ void describe(const TriangleMesh& mesh, Figures& figures) {
   const MeshStatistics statistics = mesh_statistics(mesh);
   figures.count("vertices", "vertices", statistics.vertices);
   figures.count("triangles", "triangles", statistics.triangles);
-  figures.number("area_m2", "area", statistics.area, 4);
+  figures.number("area_m2", "area", statistics.area, 6);
   figures.count("boundary_edges", "boundary edges", statistics.boundary_edges);
   figures.count("non_manifold_edges", "non-manifold edges", statistics.non_manifold_edges);
   figures.count("components", "pieces", statistics.components);

@@ -8,6 +8,7 @@
 #include <facula/map/occupancy_map.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace facula {
 namespace {
@@ -52,6 +53,10 @@ OccupancyMap build_map(const MapArguments& a, Session& session) {
     map.insert(transformed(scan.cloud, scan.world_from_scan));
     progress(++done, scans.project.scans.size());
   }
+  require(map.skipped_points() < scans.points_read - scans.mixed_removed,
+          "expected points within 32768 cells of the origin, got none at a cell of ",
+          1000 * options.resolution,
+          " mm; choose a larger --resolution-mm, or look at the scan with 'facula info'");
   return map;
 }
 
@@ -61,13 +66,14 @@ void run(const MapArguments& a, Session& session) {
   a.options.check();
   a.grid_options.check();
   const OccupancyMap map = build_map(a, session);
+  std::optional<NavigationGrid> grid;
+  if (!a.grid.empty()) grid = navigation_grid(map, a.grid_options);
   for (const auto& path : a.out) map.write(path);
   session.figures.count("skipped_points", "points skipped", map.skipped_points());
   report_map(map, session.figures);
-  if (a.grid.empty()) return;
-  const NavigationGrid grid = navigation_grid(map, a.grid_options);
-  write_navigation_grid(a.grid, grid);
-  report_grid(grid, session.figures.part("grid", "Navigation grid:"));
+  if (!grid) return;
+  write_navigation_grid(a.grid, *grid);
+  report_grid(*grid, session.figures.part("grid", "Navigation grid:"));
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ void declare(Arguments& arguments, PlaneArguments& a) {
 PointCloud read_points(const PlaneArguments& a, Session& session) {
   session.step("reading and filtering", 1, 3);
   const PosedScans scans = read_posed_scans(a.scans);
+  require_surface(scans.points_read, scans.stripes, a.scans.front());
   PointCloud cloud = scans.project.fused();
   session.figures.count("points", "points", scans.points_read);
   session.figures.count("mixed_removed", "mixed points removed", scans.mixed_removed);

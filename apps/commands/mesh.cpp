@@ -55,6 +55,7 @@ TriangleMesh grid_mesh(const MeshArguments& a, Figures& figures) {
           a.scans.size() > 1 ? "' and more" : "'",
           "; use --method advancing-front");
   PolarScan scan = read_scan(a.scans.front());
+  require_surface(scan.valid_count(), stripes_of(scan), a.scans.front());
   figures.count("points", "points", scan.valid_count());
   if (!a.no_filter) {
     figures.count("mixed_removed", "mixed points removed", remove_mixed_points(scan));
@@ -67,6 +68,7 @@ TriangleMesh grid_mesh(const MeshArguments& a, Figures& figures) {
 PointCloud cleaned_cloud(const MeshArguments& a, Session& session) {
   session.step("reading and filtering", 1, 3);
   const PosedScans scans = read_posed_scans(a.scans, !a.no_filter);
+  require_surface(scans.points_read, scans.stripes, a.scans.front());
   PointCloud cloud = scans.project.fused();
   session.figures.count("points", "points", scans.points_read);
   if (!a.no_filter) {
@@ -97,7 +99,7 @@ void report(const TriangleMesh& mesh, Figures& figures) {
   const MeshStatistics statistics = mesh_statistics(mesh);
   figures.count("vertices", "vertices", statistics.vertices);
   figures.count("triangles", "triangles", statistics.triangles);
-  figures.number("area_m2", "area", statistics.area, 4);
+  figures.number("area_m2", "area", statistics.area, 6);
   figures.count("boundary_edges", "boundary edges", statistics.boundary_edges);
   figures.count("non_manifold_edges", "non-manifold edges", statistics.non_manifold_edges);
   figures.count("components", "pieces", statistics.components);
@@ -114,6 +116,9 @@ void run(const MeshArguments& a, Session& session) {
           " and ",
           1000 * a.max_edge,
           "; leave them out for the defaults");
+  // A reference that cannot be read shall not come to light after minutes of meshing.
+  TriangleMesh reference;
+  if (!a.compare.empty()) reference = read_mesh(a.compare);
   const TriangleMesh mesh = make_mesh(a, session);
   require(!mesh.empty(),
           "expected a surface through the points, got no triangle; try a larger "
@@ -122,7 +127,7 @@ void run(const MeshArguments& a, Session& session) {
   report(mesh, session.figures);
   if (!a.compare.empty()) {
     session.step("comparing", 3, 3);
-    report_distances(distances_to_mesh(mesh.vertices, read_mesh(a.compare)),
+    report_distances(distances_to_mesh(mesh.vertices, reference),
                      session.figures.part("compare", "Distance of vertices to the reference:"));
   }
 }

@@ -13,8 +13,8 @@ namespace {
 
 /// A grid knows which points are neighbours, so mixed points can be told; a bare cloud is taken as
 /// it is.
-void clean_scan(PosedCloud& posed, PosedScans& scans) {
-  PolarScan scan = read_scan(posed.file);
+void clean_scan(const PolarScan& read, PosedCloud& posed, PosedScans& scans) {
+  PolarScan scan = read;
   scans.mixed_removed += remove_mixed_points(scan);
   posed.cloud = cloud_from_scan(scan);
 }
@@ -28,6 +28,7 @@ bool is_grid(const std::filesystem::path& file) {
 
 PosedScans read_posed_scans(const std::vector<std::filesystem::path>& paths, bool filter) {
   PosedScans scans;
+  bool all_grids = true;
   for (const auto& path : paths) {
     const FileKind kind = file_kind(path);
     require(kind == FileKind::kProject || kind == FileKind::kScan || kind == FileKind::kCloud ||
@@ -39,15 +40,40 @@ PosedScans read_posed_scans(const std::vector<std::filesystem::path>& paths, boo
             "'; 'facula extract' makes scans of captures");
     for (PosedCloud& posed : read_scan_project(path).scans) {
       scans.points_read += posed.cloud.size();
-      if (filter && is_grid(posed.file)) clean_scan(posed, scans);
+      if (is_grid(posed.file)) {
+        const PolarScan scan = read_scan(posed.file);
+        scans.stripes += stripes_of(scan);
+        if (filter) clean_scan(scan, posed, scans);
+      } else {
+        all_grids = false;
+      }
       scans.project.scans.push_back(std::move(posed));
     }
   }
+  if (!all_grids) scans.stripes = 0;
   require(scans.points_read > scans.mixed_removed,
           "expected points, got none in '",
           paths.front().string(),
           "'; was the scan empty?");
   return scans;
+}
+
+std::size_t stripes_of(const PolarScan& scan) {
+  std::size_t stripes = 0;
+  for (int col = 0; col < scan.cols; ++col) {
+    bool any = false;
+    for (int row = 0; row < scan.rows && !any; ++row) any = scan.valid[scan.index(row, col)] != 0;
+    if (any) ++stripes;
+  }
+  return stripes;
+}
+
+void require_surface(std::size_t points, std::size_t stripes, const std::filesystem::path& file) {
+  require(points > 0, "expected points, got none in '", file.string(), "'; was the scan empty?");
+  require(stripes != 1,
+          "expected a scan of several stripes, got a single one in '",
+          file.string(),
+          "', which lies in the laser plane whatever was scanned; move the axis between frames");
 }
 
 }  // namespace facula

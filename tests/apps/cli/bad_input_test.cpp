@@ -114,10 +114,60 @@ TEST_F(BadInput, HugeCountInPcdHeader) {
 }
 
 TEST_F(BadInput, ScanWithoutPoints) {
-  expect_refused("facula extract capture --min-snr 10000 --out s.pcd",
-                 "facula mesh s.pcd --out result.ply");
+  // The head looks away from the wall, so the true scan is empty.
+  expect_refused(
+      "facula simulate data/scenes/flat_wall.toml --rig data/rigs/head_fs1500.toml "
+      "--to-deg 4 --step-deg 2 --yaw-deg 180 --out away && cp away/truth.pcd s.pcd",
+      "facula mesh s.pcd --out result.ply");
+  expect_refused("true", "facula mesh s.pcd --method grid --out result.ply", "empty");
   expect_refused("true", "facula map s.pcd --out result.bt");
   expect_refused("true", "facula measure planes s.pcd --out result.csv");
+}
+
+TEST_F(BadInput, FramesWithoutALaserLine) {
+  expect_refused("true", "facula extract capture --min-snr 100000 --out result.pcd", "laser line");
+}
+
+TEST_F(BadInput, VolumeWithoutPoints) {
+  expect_capture_refused("printf '[volume]\nmin_z_mm = 900000\n' >> capture/capture.toml",
+                         "volume");
+}
+
+TEST_F(BadInput, SingleStripeHoldsNoSurface) {
+  expect_refused(
+      "facula simulate data/scenes/flat_wall.toml --rig data/rigs/head_fs1500.toml "
+      "--to-deg 0 --out one && facula extract one --out one.pcd",
+      "facula mesh one.pcd --out result.ply",
+      "stripe");
+  expect_refused("true", "facula mesh one.pcd --no-filter --out result.ply", "stripe");
+  expect_refused("true", "facula mesh one.pcd --method grid --out result.ply", "stripe");
+  expect_refused("true", "facula measure planes one.pcd --min-points 50", "stripe");
+}
+
+TEST_F(BadInput, CellsTooSmallForTheMapToReachThePoints) {
+  expect_refused("facula extract capture --out s.pcd",
+                 "facula map s.pcd --resolution-mm 1e-9 --out result.bt",
+                 "--resolution-mm");
+}
+
+TEST_F(BadInput, GridThatCannotBeMadeLeavesNoMapEither) {
+  expect_refused("facula extract capture --out s.pcd",
+                 "facula map s.pcd --min-height-m 900 --max-height-m 901 --out result.bt --grid "
+                 "result.yaml",
+                 "heights");
+}
+
+TEST_F(BadInput, HeadBeyondTheRayTracersNumbers) {
+  expect_refused("true",
+                 "facula simulate data/scenes/flat_wall.toml --rig data/rigs/head_fs1500.toml "
+                 "--to-deg 0 --position-mm 1e308 0 0 --out result",
+                 "position");
+}
+
+TEST_F(BadInput, ReferenceMeshIsReadBeforeTheWork) {
+  expect_refused("facula extract capture --out s.pcd && echo ply > torn.ply",
+                 "facula mesh s.pcd --compare torn.ply --out result.ply",
+                 "torn.ply");
 }
 
 TEST_F(BadInput, FileOfTheWrongKind) {
@@ -135,6 +185,18 @@ TEST_F(BadInput, OutputIntoMissingFolder) {
 
 TEST_F(BadInput, OutputIntoAFile) {
   expect_refused("touch plain", "facula extract capture --out plain/result.pcd", "plain");
+}
+
+TEST_F(BadInput, OutputFolderThatIsAFile) {
+  expect_refused("touch plain",
+                 "facula simulate data/scenes/flat_wall.toml --rig data/rigs/head_fs1500.toml "
+                 "--to-deg 0 --out plain --overwrite",
+                 "the file 'plain'");
+}
+
+TEST_F(BadInput, PipeIsNotReplacedByAFile) {
+  expect_refused("mkfifo pipe.json", "facula info capture --json pipe.json", "pipe");
+  EXPECT_EQ(run("test -p pipe.json").code, 0);
 }
 
 TEST_F(BadInput, TooLittleMemoryIsASentence) {
