@@ -13,16 +13,26 @@
 namespace facula {
 namespace {
 
-/// A hidden name beside `path` that keeps its extension, since some libraries go by it.
-std::filesystem::path name_beside(const std::filesystem::path& path) {
+/// Where a symbolic link leads: renaming onto the link itself would replace it.
+std::filesystem::path followed(const std::filesystem::path& path) {
+  std::error_code failure;
+  if (!std::filesystem::is_symlink(path, failure)) return path;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(path, failure);
+  return failure || target.empty() ? path : target;
+}
+
+/// A hidden name beside `path` with the extension as asked for, since some libraries go by it.
+std::filesystem::path name_beside(const std::filesystem::path& path,
+                                  const std::filesystem::path& extension) {
   static std::atomic<unsigned> counter{0};
   const std::string name = "." + path.stem().string() + "." + std::to_string(getpid()) + "-" +
-                           std::to_string(counter++) + ".tmp" + path.extension().string();
+                           std::to_string(counter++) + ".tmp" + extension.string();
   return path.parent_path() / name;
 }
 
 std::string reason() {
-  return errno != 0 ? std::strerror(errno) : "unknown reason";
+  // A write that failed before left no reason behind; a full disk is the usual one.
+  return errno != 0 ? std::strerror(errno) : "a part of it could not be written";
 }
 
 bool sync_to_disk(const std::filesystem::path& path, int flags) {
@@ -35,12 +45,18 @@ bool sync_to_disk(const std::filesystem::path& path, int flags) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path)
-    : path_(std::move(path)), temporary_(name_beside(path_)) {
+AtomicFile::AtomicFile(const std::filesystem::path& path)
+    : path_(followed(path)), temporary_(name_beside(path_, path.extension())) {
   require(!std::filesystem::is_directory(path_),
           "cannot write '",
           path_.string(),
           "': there is a folder of that name");
+  std::error_code unknown;
+  require(
+      !std::filesystem::exists(path_, unknown) || std::filesystem::is_regular_file(path_, unknown),
+      "cannot write '",
+      path_.string(),
+      "': it is a device or a pipe, which a file would replace; choose a file name");
   errno = 0;
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   require(stream_.is_open(),

@@ -11,8 +11,9 @@ namespace facula {
 /// renamed by commit(). Without commit() the destructor removes what was written.
 class AtomicFile {
  public:
-  /// Throws Error when the folder is missing or cannot be written.
-  explicit AtomicFile(std::filesystem::path path);
+  /// Follows a symbolic link to what it names. Throws Error when the folder is missing or cannot be
+  /// written, and for a folder, device or pipe of that name.
+  explicit AtomicFile(const std::filesystem::path& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

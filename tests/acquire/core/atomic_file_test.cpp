@@ -9,6 +9,7 @@
 #include <csignal>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 namespace facula {
 namespace {
@@ -76,6 +77,27 @@ TEST(AtomicFile, NamesAMissingFolder) {
 TEST(AtomicFile, RefusesTheNameOfAFolder) {
   const TemporaryFolder folder;
   EXPECT_THROW(AtomicFile{folder.path()}, Error);
+}
+
+TEST(AtomicFile, RefusesAPipeAndLeavesIt) {
+  const TemporaryFolder folder;
+  const auto path = folder / "pipe";
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_THROW(AtomicFile{path}, Error);
+  EXPECT_TRUE(std::filesystem::is_fifo(path));
+}
+
+TEST(AtomicFile, WritesWhatASymbolicLinkNamesAndKeepsTheLink) {
+  const TemporaryFolder folder;
+  const auto target = folder.write("target", "old");
+  const auto link = folder / "link.ply";
+  std::filesystem::create_symlink("target", link);
+  AtomicFile file(link);
+  EXPECT_EQ(file.temporary_path().extension(), ".ply");
+  file.stream() << "new";
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(read_whole_file(target), "new");
 }
 
 TEST(AtomicFile, KeepsTheOldFileWhenTheDiskIsFull) {
