@@ -39,11 +39,12 @@ struct SimulateOptions {
   void check() const;
 };
 
-/// Options that suit a rig. The working distance is where the sheet crosses the camera's axis (four
-/// baselines where it does not); there the line is 2 px wide (1 standard deviation) and a white
-/// wall gives 170 DN. The laser stands beside the camera, in the camera frame's plane z = 0. Far
-/// away the line narrows to 1.5 px. On a turntable the light falls off with distance as a fan does;
-/// other heads see from near to far and even it out (exposure_falloff 0).
+/// Options that suit a rig and its first sheet. The working distance is where the sheet crosses the
+/// camera's axis (four baselines where it does not); there the line is 2 px wide (1 standard
+/// deviation) and a white wall gives 170 DN. The laser stands beside the camera, in the camera
+/// frame's plane z = 0. Far away the line narrows to 1.5 px. On a turntable the light falls off
+/// with distance as a fan does; other heads see from near to far and even it out (exposure_falloff
+/// 0).
 SimulateOptions options_for(const Rig& rig);
 
 /// One frame as the camera would deliver it, 8-bit grey: per pixel, rays over the pixel's area meet

@@ -34,7 +34,7 @@ struct StripeOptions {
   double min_snr = 5.0;        ///< least filter response over its own noise [1], above 0
   double min_amplitude = 8;    ///< least height over the surroundings [DN], 0 to 255
   double max_width_ratio = 4;  ///< widest stripe kept, in units of sigma [1], above 1
-  int min_run = 4;             ///< rows in a row that a stripe must hold together [1], 1 = any
+  int min_run = 4;             ///< rows a stripe must hang together, gaps of 2 allowed [1], 1 = any
   ImageRegion region;          ///< [px]
 
   /// Throws Error naming the field, its value and its bound.
