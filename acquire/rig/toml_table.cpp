@@ -80,7 +80,7 @@ std::optional<int> TomlTable::integer_if(const std::string& key) {
   const auto value = node->value<std::int64_t>();
   require(node->is_integer() && value.has_value() && *value > -1000000000 && *value < 1000000000,
           where(key),
-          ": expected a whole number");
+          ": expected a whole number below 1e9");
   return static_cast<int>(*value);
 }
 
@@ -207,6 +207,7 @@ TomlTable TomlTable::table(const std::string& key) {
 }
 
 RigidTransform TomlTable::pose() {
+  constexpr double kFarthest = 1e6;  // [m]
   RigidTransform result;
   require(!has("rotation") || !has("quaternion_xyzw"),
           where("rotation"),
@@ -228,6 +229,10 @@ RigidTransform TomlTable::pose() {
   }
   impl_->asked.insert({"rotation", "quaternion_xyzw"});
   result.translation = 1e-3 * vector3_if("translation_mm").value_or(Eigen::Vector3d::Zero().eval());
+  require(result.translation.cwiseAbs().maxCoeff() < kFarthest,
+          where("translation_mm"),
+          ": expected lengths below 1e9 mm, got one of ",
+          1e3 * result.translation.cwiseAbs().maxCoeff());
   return result;
 }
 

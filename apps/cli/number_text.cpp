@@ -6,12 +6,20 @@
 #include <cmath>
 
 namespace facula {
+namespace {
+
+constexpr double kLarge = 1e12;  // [1]
+
+}  // namespace
 
 std::string fixed_text(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
   std::array<char, 400> text{};
-  const auto end = std::to_chars(
-      text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals);
+  // Stray points and typing errors shall not fill the screen with digits.
+  const bool large = std::abs(value) >= kLarge;
+  const auto format = large ? std::chars_format::scientific : std::chars_format::fixed;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, format, large ? 3 : decimals);
   std::string result(text.data(), end.ptr);
   const bool only_zeros = result.find_first_not_of("-0.") == std::string::npos;
   if (only_zeros && result.front() == '-') result.erase(0, 1);

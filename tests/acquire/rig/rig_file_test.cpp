@@ -99,6 +99,12 @@ TEST(RigFile, RefusesNanAndPlanesThroughTheCameraCentre) {
             std::string::npos);
 }
 
+TEST(RigFile, RefusesPosesBeyondAnyScanner) {
+  EXPECT_NE(complaint_about(replaced("[60, 0, 0]", "[60, 1e300, 0]"))
+                .find("translation_mm': expected lengths below 1e9 mm, got one of 1e+300"),
+            std::string::npos);
+}
+
 TEST(RigFile, SaysWhereTheSyntaxBreaks) {
   EXPECT_NE(complaint_about(replaced("fx_px = 600", "fx_px = = 600")).find("line 5"),
             std::string::npos);

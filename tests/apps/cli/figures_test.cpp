@@ -32,6 +32,11 @@ TEST(Figures, StandInTextAndJsonAlike) {
   EXPECT_EQ(json["rows"][0]["angle_deg"], 0.25);
 }
 
+TEST(Figures, HugeNumbersStayShort) {
+  EXPECT_EQ(fixed_text(-1e308, 4), "-1.000e+308");
+  EXPECT_EQ(fixed_text(1234567.8912, 2), "1234567.89");
+}
+
 TEST(Figures, UnknownNumbersAreNull) {
   Figures figures;
   figures.number("rms_mm", "rms", std::numeric_limits<double>::quiet_NaN(), 2);
