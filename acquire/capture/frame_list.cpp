@@ -10,6 +10,9 @@
 namespace facula {
 namespace {
 
+constexpr std::array<std::string_view, 6> kVideoExtensions = {
+    ".avi", ".mp4", ".mkv", ".mov", ".m4v", ".webm"};
+
 bool matches(std::string_view name, std::string_view pattern) {
   if (pattern.empty()) return name.empty();
   if (pattern[0] == '*') {
@@ -82,13 +85,12 @@ std::vector<std::filesystem::path> list_frames(const std::filesystem::path& fold
 }
 
 bool is_video(const std::filesystem::path& file) {
-  static const std::array<std::string, 6> kExtensions = {
-      ".avi", ".mp4", ".mkv", ".mov", ".m4v", ".webm"};
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
     return static_cast<char>(std::tolower(c));
   });
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+  return std::find(kVideoExtensions.begin(), kVideoExtensions.end(), extension) !=
+         kVideoExtensions.end();
 }
 
 }  // namespace facula
