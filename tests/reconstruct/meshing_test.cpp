@@ -92,7 +92,7 @@ PolarScan wall_scan(int rows, int cols, const Depth& x_of) {
     scan.sensor_origin[std::size_t(col)] = {0, 0.02, 0.01};
     for (int row = 0; row < rows; ++row) {
       const double x = x_of(row, col);
-      const Eigen::Vector3d p(x, 0.005 * (col - cols / 2) * x, 0.005 * (row - rows / 2) * x);
+      const Eigen::Vector3d p(x, 0.005 * (col - 0.5 * cols) * x, 0.005 * (row - 0.5 * rows) * x);
       scan.set(scan.index(row, col), p, 0.5F, 0.001F);
     }
   }

@@ -16,8 +16,8 @@ constexpr int kCols = 30;
 
 /// The ray of a cell: the camera stands off the axis and fans its rows out by 1 mrad.
 Eigen::Vector3d ray(int row, int col) {
-  const double pitch = 0.001 * (row - kRows / 2);
-  const double yaw = 0.01 * (col - kCols / 2);
+  const double pitch = 0.001 * (row - 0.5 * kRows);
+  const double yaw = 0.01 * (col - 0.5 * kCols);
   return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
 }
 
