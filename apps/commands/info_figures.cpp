@@ -3,6 +3,7 @@
 #include <facula/apps/cli/arguments.hpp>
 #include <facula/apps/commands/distance_figures.hpp>
 #include <facula/apps/commands/info_figures.hpp>
+#include <facula/apps/commands/mesh_figures.hpp>
 
 #include <algorithm>
 #include <string>
@@ -147,14 +148,7 @@ void describe(const PointCloud& cloud, Figures& figures) {
 }
 
 void describe(const TriangleMesh& mesh, Figures& figures) {
-  const MeshStatistics statistics = mesh_statistics(mesh);
-  figures.count("vertices", "vertices", statistics.vertices);
-  figures.count("triangles", "triangles", statistics.triangles);
-  figures.number("area_m2", "area", statistics.area, 6);
-  figures.count("boundary_edges", "boundary edges", statistics.boundary_edges);
-  figures.count("non_manifold_edges", "non-manifold edges", statistics.non_manifold_edges);
-  figures.count("components", "pieces", statistics.components);
-  figures.flag("watertight", "watertight", statistics.watertight);
+  report_mesh(mesh, figures);
   describe_extent(mesh.vertices, figures);
 }
 

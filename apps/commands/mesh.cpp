@@ -6,6 +6,7 @@
 #include <facula/apps/cli/output_path.hpp>
 #include <facula/apps/commands/distance_figures.hpp>
 #include <facula/apps/commands/mesh.hpp>
+#include <facula/apps/commands/mesh_figures.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
 #include <facula/reconstruct/filter/cloud_filters.hpp>
 #include <facula/reconstruct/filter/sampling_distance.hpp>
@@ -95,18 +96,6 @@ TriangleMesh make_mesh(const MeshArguments& a, Session& session) {
   return mesh_advancing_front(cloud, options);
 }
 
-void report(const TriangleMesh& mesh, Figures& figures) {
-  const MeshStatistics statistics = mesh_statistics(mesh);
-  figures.count("vertices", "vertices", statistics.vertices);
-  figures.count("triangles", "triangles", statistics.triangles);
-  figures.number("area_m2", "area", statistics.area, 6);
-  figures.count("boundary_edges", "boundary edges", statistics.boundary_edges);
-  figures.count("non_manifold_edges", "non-manifold edges", statistics.non_manifold_edges);
-  figures.count("components", "pieces", statistics.components);
-  figures.flag("watertight", "watertight", statistics.watertight);
-  if (statistics.watertight) figures.number("volume_m3", "volume", statistics.volume, 6);
-}
-
 void run(const MeshArguments& a, Session& session) {
   for (const auto& path : a.out) check_output(path, {".ply", ".obj", ".stl"});
   require(a.voxel >= 0 && a.max_edge >= 0,
@@ -124,7 +113,7 @@ void run(const MeshArguments& a, Session& session) {
           "expected a surface through the points, got no triangle; try a larger "
           "--max-edge-mm");
   for (const auto& path : a.out) write_mesh(path, mesh);
-  report(mesh, session.figures);
+  report_mesh(mesh, session.figures);
   if (!a.compare.empty()) {
     session.step("comparing", 3, 3);
     report_distances(distances_to_mesh(mesh.vertices, reference),

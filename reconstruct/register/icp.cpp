@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/median.hpp>
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/reconstruct/filter/nearest_neighbours.hpp>
 #include <facula/reconstruct/register/icp.hpp>
@@ -118,25 +119,19 @@ class Matcher {
   int num_threads_;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Geman and McClure's scale: three standard deviations of the residuals, by their median.
 double robust_scale(const std::vector<Correspondence>& pairs) {
   std::vector<double> sizes;
   sizes.reserve(pairs.size());
   for (const Correspondence& pair : pairs) sizes.push_back(std::abs(pair.residual));
-  return std::max(3 * 1.4826 * median(std::move(sizes)), 1e-9);
+  return std::max(3 * 1.4826 * median(sizes), 1e-9);
 }
 
 double median_distance(const std::vector<Correspondence>& pairs) {
   std::vector<double> distances;
   distances.reserve(pairs.size());
   for (const Correspondence& pair : pairs) distances.push_back(pair.distance);
-  return median(std::move(distances));
+  return median(distances);
 }
 
 /// Throws unless all six directions are held by the pairs.
