@@ -6,11 +6,47 @@
 
 namespace facula {
 
+Eigen::Vector3d LaserPlane::fan_origin() const {
+  const Eigen::Vector2d across = normal.head<2>();
+  if (across.squaredNorm() < 1e-4) return distance * normal;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  origin.head<2>() = distance / across.squaredNorm() * across;
+  return origin;
+}
+
+Eigen::Vector3d LaserPlane::fan_axis() const {
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d in_plane = z - normal.z() * normal;
+  // Square to the camera's axis every direction is as good: take the image's x.
+  if (in_plane.norm() < 1e-3) return (Eigen::Vector3d::UnitX() - normal.x() * normal).normalized();
+  return in_plane.normalized();
+}
+
+double LaserPlane::sheet_distance(const Eigen::Vector3d& x) const {
+  const double from_plane = normal.dot(x) - distance;
+  if (bow == 0) return from_plane;
+  const Eigen::Vector3d rho = x - fan_origin();
+  const Eigen::Vector3d in_plane = rho - normal.dot(rho) * normal;
+  return from_plane - std::tan(bow) * (in_plane.norm() - in_plane.dot(fan_axis()));
+}
+
 std::optional<Eigen::Vector3d> LaserPlane::intersect(const Eigen::Vector3d& direction) const {
   const double approach = normal.dot(direction);
   if (std::abs(approach) < 1e-9 * direction.norm()) return std::nullopt;
-  const double t = distance / approach;
+  double t = distance / approach;
   if (!(t > 0)) return std::nullopt;
+  if (bow == 0) return t * direction;
+  // Newton from the plane; the cone leaves it by a few per cent of the fan's width at most.
+  for (int i = 0; i < 8; ++i) {
+    const double h = 1e-6 * t;
+    const double off = sheet_distance(t * direction);
+    const double slope = (sheet_distance((t + h) * direction) - off) / h;
+    if (std::abs(slope) < 1e-9 * direction.norm()) return std::nullopt;
+    const double step = off / slope;
+    t -= step;
+    if (!(t > 0)) return std::nullopt;
+    if (std::abs(step) < 1e-13 * t) break;
+  }
   return t * direction;
 }
 
@@ -27,6 +63,7 @@ void LaserPlane::check() const {
           "': its plane passes through the camera centre (distance ",
           distance * 1000,
           " mm), so that no depth can be measured; check normal and distance_mm");
+  require(std::abs(bow) < 0.2, "laser '", name, "' bow_deg: expected less than 11 degrees");
 }
 
 }  // namespace facula

@@ -5,8 +5,11 @@
 #include <facula/acquire/rig/camera.hpp>
 #include <facula/acquire/rig/laser_plane.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace facula {
 
@@ -14,6 +17,14 @@ namespace facula {
 enum class StripeDirection {
   kPerRow,    ///< roughly upright: one position per image row
   kPerColumn  ///< roughly level: one position per image column
+};
+
+/// How well a calibration knows the rig: the covariance of the parameters it estimated, in the
+/// units their names end with (see rig_parameters.hpp). A parameter that is not named is taken as
+/// exact.
+struct RigCovariance {
+  std::vector<std::string> parameters;  ///< "camera.fx_px", "laser.red.distance_mm", ...
+  Eigen::MatrixXd matrix;               ///< symmetric, one row and column per parameter
 };
 
 /// A scanner head: camera, one or more sheets of light, and an axis. Lengths in metres here; in
@@ -24,6 +35,7 @@ struct Rig {
   std::vector<LaserPlane> lasers;  ///< at least one, each with a name of its own
   Axis axis;
   StripeDirection stripe_direction = StripeDirection::kPerRow;
+  std::optional<RigCovariance> covariance;  ///< absent where nobody estimated it
 
   /// Throws Error naming the first value that cannot be.
   void check() const;

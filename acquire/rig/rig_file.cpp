@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iomanip>
 #include <locale>
+#include <numbers>
 
 namespace facula {
 namespace {
@@ -33,6 +34,7 @@ LaserPlane read_laser(TomlTable& table) {
   laser.name = table.text_if("name").value_or("laser");
   laser.normal = table.vector3("normal");
   laser.distance = 1e-3 * table.number("distance_mm");
+  laser.bow = table.number_if("bow_deg").value_or(0) * std::numbers::pi / 180;
   table.finish();
   // Published planes are printed with few digits: a small deviation from length 1 is theirs.
   const double length = laser.normal.norm();
@@ -108,6 +110,7 @@ void write_rig(const std::filesystem::path& path, const Rig& rig) {
     out << "\n[[laser]]\nname = " << std::quoted(laser.name) << "\n";
     write_vector(out, "normal", laser.normal);
     out << "distance_mm = " << laser.distance * 1000 << "\n";
+    if (laser.bow != 0) out << "bow_deg = " << laser.bow * 180 / std::numbers::pi << "\n";
   }
   const Eigen::Quaterniond& q = rig.axis.scan_from_camera.rotation;
   out << "\n[axis]\nkind = \"" << to_string(rig.axis.kind) << "\"\n# scan_from_camera\n";
