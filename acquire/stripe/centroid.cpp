@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace facula {
@@ -13,25 +15,29 @@ constexpr int kReach = 10;  // [px], source B (2.3)
 
 class Centroid : public RowDetector {
  public:
-  std::optional<StripeCandidate> find(const StripeSignal& signal,
-                                      int r,
-                                      int begin,
-                                      int end) const override {
-    if (end - begin < 3) return std::nullopt;
-    const float* row = signal.row(r);
-    const float* brightest = std::max_element(row + begin, row + end);
-    const int first = static_cast<int>(brightest - row);
-    int last = first;
-    for (int c = first; c < end; ++c) {
-      if (row[c] == *brightest) last = c;
+  std::optional<StripeCandidate> measure(const StripeSignal& signal,
+                                         int r,
+                                         int peak) const override {
+    const SignalRow row = signal.row(r);
+    // The brightest pixel near the peak; of equal ones the middle between the first and the last.
+    int brightest = std::numeric_limits<int>::min();
+    int first = peak;
+    int last = peak;
+    const int end = std::min(row.end, peak + kReach + 1);
+    for (int c = std::max(row.begin, peak - kReach); c < end; ++c) {
+      if (row.at(c) > brightest) {
+        brightest = row.at(c);
+        first = c;
+      }
+      if (row.at(c) == brightest) last = c;
     }
     StripeCandidate found;
-    std::vector<float> values(row + begin, row + end);
-    found.background = median(values);
-    found.amplitude = *brightest - found.background;
+    std::vector<std::int16_t> values(row.values, row.values + (row.end - row.begin));
+    found.background = static_cast<float>(median(values));
+    found.amplitude = static_cast<float>(brightest) - found.background;
     const int middle = (first + last) / 2;
-    weigh(row, std::max(begin, middle - kReach), std::min(end, middle + kReach + 1), found);
-    found.saturated = signal.clipped(r, middle);
+    weigh(row, middle, found);
+    found.saturated = row.is_clipped(middle);
     found.snr_per_noise = found.amplitude;
     if (!(found.amplitude > 0) || !(found.sigma_per_noise > 0)) return std::nullopt;
     return found;
@@ -40,12 +46,14 @@ class Centroid : public RowDetector {
  private:
   /// Mean m, spread, and what noise of 1 DN in every pixel does to the mean:
   /// sqrt(sum (x - m)^2) / sum I.
-  static void weigh(const float* row, int begin, int end, StripeCandidate& found) {
+  static void weigh(const SignalRow& row, int middle, StripeCandidate& found) {
+    const int begin = std::max(row.begin, middle - kReach);
+    const int end = std::min(row.end, middle + kReach + 1);
     double weight = 0;
     double moment = 0;
     double square = 0;
     for (int c = begin; c < end; ++c) {
-      const double w = std::max(0.0F, row[c] - found.background);
+      const double w = std::max(0.0F, static_cast<float>(row.at(c)) - found.background);
       weight += w;
       moment += w * c;
       square += w * c * c;

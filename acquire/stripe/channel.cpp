@@ -63,11 +63,6 @@ void read_any_row(ImageView8 frame, int r, Channel channel, const Write& write) 
   for (int c = 0; c < frame.cols; ++c) write(c, static_cast<float>(pixels[c]));
 }
 
-bool any_clipped(const std::uint8_t* pixel, int channels) {
-  if (channels == 1) return pixel[0] == 255;
-  return pixel[0] == 255 || pixel[1] == 255 || pixel[2] == 255;
-}
-
 void check_channels(ImageView8 frame) {
   require(frame.empty() || frame.channels == 1 || frame.channels == 3,
           "expected a grey frame or one of 3 colours, got ",
@@ -105,51 +100,10 @@ Image8 extract_channel(ImageView8 frame, Channel channel) {
   return result;
 }
 
-StripeSignal::StripeSignal(ImageView8 frame, ImageView8 background, Channel channel, bool transpose)
-    : rows_(transpose ? frame.cols : frame.rows), cols_(transpose ? frame.rows : frame.cols) {
-  check_channels(frame);
-  require(background.empty() || background.channels == frame.channels,
-          "expected frame and background both grey or both in colour, got ",
-          frame.channels,
-          " and ",
-          background.channels,
-          " channels");
-  require(background.empty() || (background.rows == frame.rows && background.cols == frame.cols),
-          "expected a background of the frame's size ",
-          frame.cols,
-          " x ",
-          frame.rows,
-          ", got ",
-          background.cols,
-          " x ",
-          background.rows);
-  const std::size_t count = static_cast<std::size_t>(rows_) * static_cast<std::size_t>(cols_);
-  values_.resize(count);
-  clipped_.resize(count);
-  const auto index = [&](int r, int c) {
-    return transpose ? static_cast<std::size_t>(c) * static_cast<std::size_t>(cols_) +
-                           static_cast<std::size_t>(r)
-                     : static_cast<std::size_t>(r) * static_cast<std::size_t>(cols_) +
-                           static_cast<std::size_t>(c);
-  };
-  // One step from column to column of the frame, whether that is along or across our rows.
-  const std::size_t step = transpose ? static_cast<std::size_t>(cols_) : 1;
-  for (int r = 0; r < frame.rows; ++r) {
-    const std::uint8_t* pixels = frame.row(r);
-    float* values = &values_[index(r, 0)];
-    std::uint8_t* clipped = &clipped_[index(r, 0)];
-    read_any_row(frame, r, channel, [=](int c, float value) {
-      values[static_cast<std::size_t>(c) * step] = value;
-    });
-    for (int c = 0; c < frame.cols; ++c) {
-      clipped[static_cast<std::size_t>(c) * step] =
-          any_clipped(pixels + c * frame.channels, frame.channels) ? 1 : 0;
-    }
-    if (background.empty()) continue;
-    read_any_row(background, r, channel, [=](int c, float value) {
-      values[static_cast<std::size_t>(c) * step] -= value;
-    });
-  }
+void read_channel_row(ImageView8 frame, int r, Channel channel, std::int16_t* values) {
+  read_any_row(frame, r, channel, [&](int c, float value) {
+    values[c] = static_cast<std::int16_t>(std::lround(value));
+  });
 }
 
 }  // namespace facula

@@ -30,31 +30,7 @@ std::string to_string(Channel channel);
 /// for any other number of channels than 1 or 3.
 Image8 extract_channel(ImageView8 frame, Channel channel);
 
-/// The rows (or columns) of a frame as the detectors read them: one channel, background taken off,
-/// as signed numbers, so that the noise about zero stays whole.
-class StripeSignal {
- public:
-  /// `background` may be empty. `transpose` turns columns into rows. Throws Error when the frame is
-  /// neither grey nor of 3 colours, or background and frame differ in size or number of channels.
-  StripeSignal(ImageView8 frame, ImageView8 background, Channel channel, bool transpose);
-
-  int rows() const { return rows_; }
-  int cols() const { return cols_; }
-  const float* row(int r) const {
-    return values_.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(cols_);
-  }
-
-  /// Whether any colour of the pixel is clipped at 255.
-  bool clipped(int r, int c) const {
-    return clipped_[static_cast<std::size_t>(r) * static_cast<std::size_t>(cols_) +
-                    static_cast<std::size_t>(c)] != 0;
-  }
-
- private:
-  int rows_;
-  int cols_;
-  std::vector<float> values_;
-  std::vector<std::uint8_t> clipped_;
-};
+/// Reads one row of a grey or 3-colour frame as `channel`, signed and rounded to whole DN.
+void read_channel_row(ImageView8 frame, int r, Channel channel, std::int16_t* values);
 
 }  // namespace facula

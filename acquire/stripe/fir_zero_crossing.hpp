@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <facula/acquire/stripe/stripe_candidate.hpp>
+#include <facula/acquire/stripe/row_detector.hpp>
 
 #include <memory>
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace facula {
@@ -21,14 +22,14 @@ float estimate_noise(const StripeSignal& signal) {
   std::vector<float> differences;
   const int step = std::max(1, signal.rows() / kRows);
   for (int r = 0; r < signal.rows(); r += step) {
-    const float* s = signal.row(r);
+    const std::int16_t* s = signal.row(r).values;
     differences.clear();
     // Whole numbers make the median of |differences| step by whole numbers; their upper quantile
     // steps as well, so the mean of the lower three quarters is taken instead.
     const int brightest = static_cast<int>(std::max_element(s, s + signal.cols()) - s);
     for (int c = 1; c + 1 < signal.cols(); ++c) {
       if (std::abs(c - brightest) <= kStripeReach) continue;
-      differences.push_back(std::abs(2 * s[c] - s[c - 1] - s[c + 1]));
+      differences.push_back(static_cast<float>(std::abs(2 * s[c] - s[c - 1] - s[c + 1])));
     }
     if (differences.size() < 4) continue;
     const std::size_t kept = differences.size() * 3 / 4;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <facula/acquire/stripe/channel.hpp>
+#include <facula/acquire/stripe/stripe_signal.hpp>
 
 namespace facula {
 

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <facula/acquire/stripe/channel.hpp>
-#include <facula/acquire/stripe/stripe_detector.hpp>
-
-#include <optional>
-
 namespace facula {
 
 /// One stripe in one row, before it is judged against the noise of the whole frame.
@@ -22,21 +17,6 @@ struct StripeCandidate {
                              ///< is taken over its value at the amplitude [1]
   float position_share = 0;  ///< the same where the position is taken from [1]
   bool saturated = false;    ///< the core is clipped
-};
-
-/// What a detector is: a way to find the strongest stripe in one row of a signal.
-class RowDetector {
- public:
-  RowDetector() = default;
-  virtual ~RowDetector() = default;
-  RowDetector(const RowDetector&) = delete;
-  RowDetector& operator=(const RowDetector&) = delete;
-
-  /// The strongest stripe of row r between columns [begin, end), if the row has one at all.
-  virtual std::optional<StripeCandidate> find(const StripeSignal& signal,
-                                              int r,
-                                              int begin,
-                                              int end) const = 0;
 };
 
 }  // namespace facula

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/median.hpp>
-#include <facula/acquire/stripe/centroid.hpp>
-#include <facula/acquire/stripe/fir_zero_crossing.hpp>
+#include <facula/acquire/stripe/detector_table.hpp>
+#include <facula/acquire/stripe/line_kernels.hpp>
+#include <facula/acquire/stripe/locate.hpp>
 #include <facula/acquire/stripe/row_noise.hpp>
-#include <facula/acquire/stripe/stripe_candidate.hpp>
 #include <facula/acquire/stripe/stripe_detector.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -16,27 +15,6 @@
 
 namespace facula {
 namespace {
-
-/// The detectors, by the names people give them.
-struct DetectorRow {
-  DetectorKind kind;
-  const char* name;
-  std::unique_ptr<RowDetector> (*make)(const StripeOptions&);
-};
-
-constexpr std::array<DetectorRow, 2> kDetectors = {{
-    {DetectorKind::kFirZeroCrossing,
-     "fir",
-     [](const StripeOptions& options) { return make_fir_zero_crossing(options.sigma); }},
-    {DetectorKind::kCentroid, "centroid", [](const StripeOptions&) { return make_centroid(); }},
-}};
-
-std::unique_ptr<RowDetector> make_detector(const StripeOptions& options) {
-  for (const DetectorRow& row : kDetectors) {
-    if (row.kind == options.detector) return row.make(options);
-  }
-  fail("expected a known stripe detector");
-}
 
 /// Rows [first, last) and, within a row, columns [begin, end) that are searched.
 struct SearchArea {
@@ -186,10 +164,15 @@ StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const Strip
 
   StripeProfile profile = StripeProfile::none(static_cast<std::size_t>(signal.rows()));
   profile.noise = estimate_noise(signal);
+  const LineKernels kernels = line_kernels(options.sigma);
   Candidates candidates(profile.size());
   for (int r = area.first; r < area.last; ++r) {
-    auto found = detector->find(signal, r, area.begin, area.end);
-    if (found && stands_out(*found, profile.noise, options)) {
+    const LocatedRow located = locate_in_row(signal.row(r), kernels, area.begin, area.end, 1);
+    if (located.peaks.empty()) continue;
+    auto found = detector->measure(signal, r, located.peaks.front().column);
+    if (!found) continue;
+    found->row_noise = located.row_noise;
+    if (stands_out(*found, profile.noise, options)) {
       candidates[static_cast<std::size_t>(r)] = found;
     }
   }
@@ -199,22 +182,6 @@ StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const Strip
     if (candidates[r]) store(*candidates[r], gain, r, profile);
   }
   return profile;
-}
-
-DetectorKind detector_from_name(const std::string& name) {
-  std::string all;
-  for (const DetectorRow& row : kDetectors) {
-    if (name == row.name) return row.kind;
-    all += std::string(all.empty() ? "" : ", ") + row.name;
-  }
-  fail("expected a stripe detector (", all, "), got '", name, "'");
-}
-
-std::string to_string(DetectorKind kind) {
-  for (const DetectorRow& row : kDetectors) {
-    if (row.kind == kind) return row.name;
-  }
-  return "fir";
 }
 
 }  // namespace facula

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <facula/acquire/core/image_view.hpp>
+#include <facula/acquire/stripe/channel.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace facula {
+
+/// The part of one row that is known: columns [begin, end) of the frame.
+struct SignalRow {
+  const std::int16_t* values = nullptr;   ///< values[c - begin] [DN]
+  const std::uint8_t* clipped = nullptr;  ///< clipped[c - begin], 1 where a colour stands at 255
+  int begin = 0;                          ///< [px]
+  int end = 0;                            ///< [px]
+
+  bool empty() const { return begin >= end; }
+  bool holds(int c) const { return c >= begin && c < end; }
+
+  /// Value at a column of the frame; beyond what is known the row goes on level. Not of an empty
+  /// row.
+  int at(int c) const { return values[std::clamp(c, begin, end - 1) - begin]; }
+  bool is_clipped(int c) const { return clipped[std::clamp(c, begin, end - 1) - begin] != 0; }
+};
+
+/// The rows (or columns) of a frame as the detectors read them: one channel, background taken off,
+/// as signed whole numbers, so that the noise about zero stays whole.
+class StripeSignal {
+ public:
+  /// `background` may be empty. `transpose` turns columns into rows. Throws Error when the frame is
+  /// neither grey nor of 3 colours, or background and frame differ in size or number of channels.
+  StripeSignal(ImageView8 frame, ImageView8 background, Channel channel, bool transpose);
+
+  int rows() const { return rows_; }
+  int cols() const { return cols_; }
+
+  SignalRow row(int r) const {
+    const std::size_t start = static_cast<std::size_t>(r) * static_cast<std::size_t>(cols_);
+    return {values_.data() + start, clipped_.data() + start, 0, cols_};
+  }
+
+ private:
+  int rows_;
+  int cols_;
+  std::vector<std::int16_t> values_;
+  std::vector<std::uint8_t> clipped_;
+};
+
+}  // namespace facula
