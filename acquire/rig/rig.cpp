@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/rig/rig.hpp>
+#include <facula/acquire/rig/rig_parameters.hpp>
 
 #include <set>
 
@@ -20,6 +21,7 @@ void Rig::check() const {
             "'; captures tell them apart by their names");
   }
   axis.check();
+  if (covariance) check_covariance(*this, *covariance);
 }
 
 }  // namespace facula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/atomic_file.hpp>
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/rig/rig_covariance_file.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
 #include <facula/acquire/rig/toml_table.hpp>
 
@@ -84,6 +85,9 @@ Rig read_rig(const std::filesystem::path& path) {
   rig.camera = read_camera(table.table("camera"));
   for (TomlTable& laser : table.tables("laser")) rig.lasers.push_back(read_laser(laser));
   if (auto axis = table.table_if("axis")) rig.axis = read_axis(std::move(*axis));
+  if (auto covariance = table.table_if("covariance")) {
+    rig.covariance = read_covariance(std::move(*covariance));
+  }
   table.finish();
   try {
     rig.check();
@@ -117,6 +121,7 @@ void write_rig(const std::filesystem::path& path, const Rig& rig) {
   write_vector(out, "translation_mm", rig.axis.scan_from_camera.translation * 1000);
   out << "quaternion_xyzw = [" << q.x() << ", " << q.y() << ", " << q.z() << ", " << q.w() << "]\n";
   write_vector(out, "direction", rig.axis.direction);
+  if (rig.covariance) write_covariance(out, *rig.covariance);
   file.commit();
 }
 

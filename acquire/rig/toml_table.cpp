@@ -98,16 +98,46 @@ std::optional<bool> TomlTable::boolean_if(const std::string& key) {
   return node->value<bool>();
 }
 
-std::vector<double> TomlTable::numbers(const std::string& key) {
-  const toml::node* node = impl_->find(key);
-  require(node != nullptr, where(key), ": missing; expected a list of numbers");
-  require(node->is_array(), where(key), ": expected a list of numbers");
+namespace {
+
+const toml::array& list_in(const toml::node* node, const std::string& where, const char* of) {
+  require(node != nullptr, where, ": missing; expected a list of ", of);
+  require(node->is_array(), where, ": expected a list of ", of);
+  return *node->as_array();
+}
+
+std::vector<double> finite_numbers(const toml::array& list, const std::string& where) {
   std::vector<double> result;
-  for (const toml::node& entry : *node->as_array()) {
+  for (const toml::node& entry : list) {
     const auto value = entry.value<double>();
     require(entry.is_number() && value.has_value() && std::isfinite(*value),
-            where(key),
+            where,
             ": expected finite numbers only");
+    result.push_back(*value);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> TomlTable::numbers(const std::string& key) {
+  return finite_numbers(list_in(impl_->find(key), where(key), "numbers"), where(key));
+}
+
+std::vector<std::vector<double>> TomlTable::number_rows(const std::string& key) {
+  std::vector<std::vector<double>> result;
+  for (const toml::node& row : list_in(impl_->find(key), where(key), "lists of numbers")) {
+    require(row.is_array(), where(key), ": expected lists of numbers such as [[1, 2], [2, 5]]");
+    result.push_back(finite_numbers(*row.as_array(), where(key)));
+  }
+  return result;
+}
+
+std::vector<std::string> TomlTable::texts(const std::string& key) {
+  std::vector<std::string> result;
+  for (const toml::node& entry : list_in(impl_->find(key), where(key), "texts")) {
+    const auto value = entry.value<std::string>();
+    require(entry.is_string() && value.has_value(), where(key), ": expected texts in quotes only");
     result.push_back(*value);
   }
   return result;

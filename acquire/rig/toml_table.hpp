@@ -44,6 +44,10 @@ class TomlTable {
   /// A list of pairs of finite numbers, as in [[0, 10], [20, 30]]; empty when the key is absent.
   std::vector<Eigen::Vector2d> pairs(const std::string& key);
 
+  /// A list of texts, and a list of lists of finite numbers. Throw Error when the key is absent.
+  std::vector<std::string> texts(const std::string& key);
+  std::vector<std::vector<double>> number_rows(const std::string& key);
+
   /// A table below this one.
   TomlTable table(const std::string& key);
   std::optional<TomlTable> table_if(const std::string& key);
