@@ -6,6 +6,7 @@
 #include <facula/acquire/stripe/locate.hpp>
 #include <facula/acquire/stripe/row_noise.hpp>
 #include <facula/acquire/stripe/stripe_detector.hpp>
+#include <facula/acquire/stripe/stripe_location.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -154,27 +155,44 @@ std::size_t StripeProfile::seen_count() const {
   return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), std::uint8_t{1}));
 }
 
-StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const StripeOptions& options) {
-  options.check();
-  require(!frame.empty(), "expected a frame with pixels, got an empty one");
-  const StripeSignal signal(
-      frame, background, options.channel, options.direction == StripeDirection::kPerColumn);
-  const std::unique_ptr<RowDetector> detector = make_detector(options);
-  const SearchArea area = search_area(signal, options);
+StripeLocation StripeLocation::none(std::size_t rows) {
+  StripeLocation location;
+  location.peak.assign(rows, -1);
+  location.peak_per_noise.assign(rows, 0);
+  location.row_noise.assign(rows, 0);
+  return location;
+}
 
-  StripeProfile profile = StripeProfile::none(static_cast<std::size_t>(signal.rows()));
-  profile.noise = estimate_noise(signal);
+StripeLocation locate_stripe(const StripeSignal& signal, const StripeOptions& options) {
+  StripeLocation location = StripeLocation::none(static_cast<std::size_t>(signal.rows()));
+  location.noise = estimate_noise(signal);
   const LineKernels kernels = line_kernels(options.sigma);
-  Candidates candidates(profile.size());
+  const SearchArea area = search_area(signal, options);
   for (int r = area.first; r < area.last; ++r) {
     const LocatedRow located = locate_in_row(signal.row(r), kernels, area.begin, area.end, 1);
     if (located.peaks.empty()) continue;
-    auto found = detector->measure(signal, r, located.peaks.front().column);
+    const auto i = static_cast<std::size_t>(r);
+    location.peak[i] = located.peaks.front().column;
+    location.peak_per_noise[i] = located.peaks.front().response / kernels.curvature_norm;
+    location.row_noise[i] = located.row_noise;
+  }
+  return location;
+}
+
+StripeProfile measure_stripe(const StripeSignal& signal,
+                             const StripeLocation& location,
+                             const StripeOptions& options) {
+  const std::unique_ptr<RowDetector> detector = make_detector(options);
+  StripeProfile profile = StripeProfile::none(location.size());
+  profile.noise = location.noise;
+  Candidates candidates(location.size());
+  for (std::size_t r = 0; r < location.size(); ++r) {
+    const int peak = location.peak[r];
+    if (peak < 0 || !signal.row(static_cast<int>(r)).holds(peak)) continue;
+    auto found = detector->measure(signal, static_cast<int>(r), peak);
     if (!found) continue;
-    found->row_noise = located.row_noise;
-    if (stands_out(*found, profile.noise, options)) {
-      candidates[static_cast<std::size_t>(r)] = found;
-    }
+    found->row_noise = location.row_noise[r];
+    if (stands_out(*found, location.noise, options)) candidates[r] = found;
   }
   drop_short_runs(candidates, options);
   const float gain = signal_noise_gain(candidates, profile.noise);
@@ -182,6 +200,14 @@ StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const Strip
     if (candidates[r]) store(*candidates[r], gain, r, profile);
   }
   return profile;
+}
+
+StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const StripeOptions& options) {
+  options.check();
+  require(!frame.empty(), "expected a frame with pixels, got an empty one");
+  const StripeSignal signal(
+      frame, background, options.channel, options.direction == StripeDirection::kPerColumn);
+  return measure_stripe(signal, locate_stripe(signal, options), options);
 }
 
 }  // namespace facula
