@@ -39,7 +39,9 @@ void read_clipped_row(ImageView8 frame, int r, std::uint8_t* clipped) {
 }  // namespace
 
 StripeSignal::StripeSignal(ImageView8 frame, ImageView8 background, Channel channel, bool transpose)
-    : rows_(transpose ? frame.cols : frame.rows), cols_(transpose ? frame.rows : frame.cols) {
+    : rows_(transpose ? frame.cols : frame.rows),
+      cols_(transpose ? frame.rows : frame.cols),
+      width_(cols_) {
   check_pair(frame, background);
   const std::size_t count = static_cast<std::size_t>(rows_) * static_cast<std::size_t>(cols_);
   values_.resize(count);
@@ -59,6 +61,13 @@ StripeSignal::StripeSignal(ImageView8 frame, ImageView8 background, Channel chan
       clipped_[i] = clipped[c];
     }
   }
+}
+
+StripeSignal::StripeSignal(const StripeWindows& windows, Channel channel)
+    : StripeSignal(windows.lit.view(), windows.dark.view(), channel, false) {
+  windows.check();
+  cols_ = windows.cols;
+  begin_ = windows.begin;
 }
 
 }  // namespace facula

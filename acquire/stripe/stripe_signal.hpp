@@ -3,6 +3,7 @@
 
 #include <facula/acquire/core/image_view.hpp>
 #include <facula/acquire/stripe/channel.hpp>
+#include <facula/acquire/stripe/stripe_windows.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -35,17 +36,25 @@ class StripeSignal {
   /// neither grey nor of 3 colours, or background and frame differ in size or number of channels.
   StripeSignal(ImageView8 frame, ImageView8 background, Channel channel, bool transpose);
 
+  /// The windows about the stripe alone; rows without a window are empty. Row by row the same
+  /// numbers as those of the frame they were cut from.
+  StripeSignal(const StripeWindows& windows, Channel channel);
+
   int rows() const { return rows_; }
-  int cols() const { return cols_; }
+  int cols() const { return cols_; }  ///< of the frame, also where only windows of it are known
 
   SignalRow row(int r) const {
-    const std::size_t start = static_cast<std::size_t>(r) * static_cast<std::size_t>(cols_);
-    return {values_.data() + start, clipped_.data() + start, 0, cols_};
+    const std::size_t start = static_cast<std::size_t>(r) * static_cast<std::size_t>(width_);
+    const int begin = begin_.empty() ? 0 : begin_[static_cast<std::size_t>(r)];
+    const int end = begin < 0 ? begin : begin + width_;
+    return {values_.data() + start, clipped_.data() + start, begin, end};
   }
 
  private:
   int rows_;
   int cols_;
+  int width_;                        ///< columns that are known of every row [px]
+  std::vector<std::int32_t> begin_;  ///< first of them, -1 for none; empty: all begin at 0 [px]
   std::vector<std::int16_t> values_;
   std::vector<std::uint8_t> clipped_;
 };
