@@ -174,10 +174,10 @@ void check_counts(const Capture& capture, std::size_t lit) {
 /// The laser the capture names; it may stay silent where the rig has only one.
 std::size_t read_laser(TomlTable& table, const Rig& rig) {
   const std::optional<std::string> name = table.text_if("laser");
-  require(name.has_value() || rig.lasers.size() == 1,
+  require(name.has_value() || rig.light_count() == 1,
           table.where("laser"),
           ": missing; the rig has ",
-          rig.lasers.size(),
+          rig.light_count(),
           " lasers, so the capture must name the one that is lit");
   if (!name) return 0;
   for (std::size_t i = 0; i < rig.lasers.size(); ++i) {

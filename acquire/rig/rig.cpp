@@ -9,7 +9,11 @@ namespace facula {
 
 void Rig::check() const {
   camera.check();
-  require(!lasers.empty(), "rig '", name, "': expected at least one [[laser]], got none");
+  require(!lasers.empty() || range || profile_polynomial || profile_projection || two_line,
+          "rig '",
+          name,
+          "': expected at least one [[laser]], or a [range], [profile] or [two_line] calibration, "
+          "got none");
   std::set<std::string> names;
   for (const LaserPlane& laser : lasers) {
     laser.check();
@@ -21,6 +25,18 @@ void Rig::check() const {
             "'; captures tell them apart by their names");
   }
   axis.check();
+  if (range) range->check();
+  const int lines = stripe_direction == StripeDirection::kPerRow ? camera.height : camera.width;
+  require(!compensation || compensation->lines() == lines,
+          "rig '",
+          name,
+          "': expected a compensation table of ",
+          lines,
+          " lines, as the picture has, got ",
+          compensation ? compensation->lines() : 0);
+  if (profile_polynomial) profile_polynomial->check();
+  if (profile_projection) profile_projection->check();
+  if (two_line) two_line->check();
   if (covariance) check_covariance(*this, *covariance);
 }
 

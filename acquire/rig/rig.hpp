@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <facula/acquire/profile/profile_polynomial.hpp>
+#include <facula/acquire/profile/sheet_projection.hpp>
+#include <facula/acquire/range/compensation_table.hpp>
+#include <facula/acquire/range/range_model.hpp>
 #include <facula/acquire/rig/axis.hpp>
 #include <facula/acquire/rig/camera.hpp>
 #include <facula/acquire/rig/laser_plane.hpp>
+#include <facula/acquire/two_line/two_line_head.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,10 +38,21 @@ struct RigCovariance {
 struct Rig {
   std::string name = "rig";
   Camera camera;
-  std::vector<LaserPlane> lasers;  ///< at least one, each with a name of its own
+  std::vector<LaserPlane> lasers;  ///< each with a name of its own; at least one, unless the rig
+                                   ///< carries one of the calibrations below
   Axis axis;
   StripeDirection stripe_direction = StripeDirection::kPerRow;
   std::optional<RigCovariance> covariance;  ///< absent where nobody estimated it
+
+  // Calibrations of heads that have no board: depth straight from the stripe's position.
+  std::optional<RangeModel> range;                ///< takes the sheet's place where there is none
+  std::optional<CompensationTable> compensation;  ///< applied before `range`
+  std::optional<ProfilePolynomial> profile_polynomial;
+  std::optional<SheetProjection> profile_projection;
+  std::optional<TwoLineHead> two_line;
+
+  /// How many lights a capture can name: the sheets, or the one that the range model stands for.
+  std::size_t light_count() const { return lasers.empty() && range ? 1 : lasers.size(); }
 
   /// Throws Error naming the first value that cannot be.
   void check() const;

@@ -3,6 +3,7 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/rig/rig_covariance_file.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
+#include <facula/acquire/rig/simple_calibrations_file.hpp>
 #include <facula/acquire/rig/toml_table.hpp>
 
 #include <cmath>
@@ -88,6 +89,7 @@ Rig read_rig(const std::filesystem::path& path) {
   if (auto covariance = table.table_if("covariance")) {
     rig.covariance = read_covariance(std::move(*covariance));
   }
+  read_simple_calibrations(table, rig);
   table.finish();
   try {
     rig.check();
@@ -122,6 +124,7 @@ void write_rig(const std::filesystem::path& path, const Rig& rig) {
   out << "quaternion_xyzw = [" << q.x() << ", " << q.y() << ", " << q.z() << ", " << q.w() << "]\n";
   write_vector(out, "direction", rig.axis.direction);
   if (rig.covariance) write_covariance(out, *rig.covariance);
+  write_simple_calibrations(out, rig);
   file.commit();
 }
 

@@ -32,9 +32,9 @@ void check_capture(const Capture& capture, std::size_t frames) {
           " positions for ",
           frames,
           " frames");
-  require(capture.laser < capture.rig.lasers.size(),
+  require(capture.laser < capture.rig.light_count(),
           "expected a lit laser below ",
-          capture.rig.lasers.size(),
+          capture.rig.light_count(),
           ", the number in the rig, got ",
           capture.laser);
   require(capture.stripe.direction == capture.rig.stripe_direction,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/range/triangulate_by_range.hpp>
 #include <facula/acquire/triangulate/triangulate.hpp>
 
 #include <cmath>
@@ -21,11 +22,12 @@ std::optional<TriangulatedPoint> triangulate(const Rig& rig,
                                              std::size_t laser,
                                              const Eigen::Vector2d& pixel,
                                              double pixel_sigma) {
-  require(laser < rig.lasers.size(),
+  require(laser < rig.light_count(),
           "expected a laser below ",
-          rig.lasers.size(),
+          rig.light_count(),
           ", the number in the rig, got ",
           laser);
+  if (rig.lasers.empty()) return triangulate_by_range(rig, pixel, pixel_sigma);
   const std::optional<Eigen::Vector3d> point = point_on_sheet(rig, laser, pixel);
   if (!point) return std::nullopt;
   // The derivative across the line by a central difference of one pixel; one-sided at infinity.
