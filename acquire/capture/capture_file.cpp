@@ -3,6 +3,7 @@
 #include <facula/acquire/capture/capture_file.hpp>
 #include <facula/acquire/capture/frame_list.hpp>
 #include <facula/acquire/capture/frame_source.hpp>
+#include <facula/acquire/capture/stripe_settings.hpp>
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
 #include <facula/acquire/rig/toml_table.hpp>
@@ -75,41 +76,6 @@ void read_positions(std::optional<TomlTable> table, std::size_t count, Capture& 
     capture.positions = stepped_positions(*table, axis, count);
   }
   table->finish();
-}
-
-int whole_pixels(double value, const std::string& where) {
-  require(value == std::round(value) && std::abs(value) <= 100000,
-          where,
-          ": expected whole pixels, got ",
-          value);
-  return static_cast<int>(value);
-}
-
-ImageRegion read_region(TomlTable& table) {
-  if (!table.has("region_px")) return {};
-  const std::string where = table.where("region_px");
-  const std::vector<double> r = table.numbers("region_px");
-  require(r.size() == 4, where, ": expected [x, y, width, height]");
-  return {whole_pixels(r[0], where),
-          whole_pixels(r[1], where),
-          whole_pixels(r[2], where),
-          whole_pixels(r[3], where)};
-}
-
-StripeOptions read_stripe(TomlTable table, StripeDirection direction) {
-  StripeOptions options;
-  if (const auto name = table.text_if("detector")) options.detector = detector_from_name(*name);
-  if (const auto name = table.text_if("channel")) options.channel = channel_from_name(*name);
-  options.direction = direction;
-  options.sigma = table.number_if("sigma_px").value_or(options.sigma);
-  options.min_snr = table.number_if("min_snr").value_or(options.min_snr);
-  options.min_amplitude = table.number_if("min_amplitude").value_or(options.min_amplitude);
-  options.max_width_ratio = table.number_if("max_width_ratio").value_or(options.max_width_ratio);
-  options.min_run = table.integer_if("min_run").value_or(options.min_run);
-  options.region = read_region(table);
-  table.finish();
-  options.check();
-  return options;
 }
 
 std::optional<double> length_if(TomlTable& table, const std::string& key) {
@@ -204,7 +170,8 @@ Capture read_capture(const std::filesystem::path& path, const OptionalPath& fram
   table.finish();
 
   capture.stripe.direction = capture.rig.stripe_direction;
-  if (stripe) capture.stripe = read_stripe(std::move(*stripe), capture.rig.stripe_direction);
+  if (stripe)
+    capture.stripe = read_stripe_options(std::move(*stripe), capture.rig.stripe_direction);
   if (volume) capture.volume = read_volume(std::move(*volume));
   if (pose) {
     capture.world_from_scan = pose->pose();

@@ -10,6 +10,7 @@
 #include <iomanip>
 #include <locale>
 #include <numbers>
+#include <sstream>
 
 namespace facula {
 namespace {
@@ -76,10 +77,7 @@ void write_vector(std::ostream& out, const char* key, const Eigen::Vector3d& v) 
   out << key << " = [" << v.x() << ", " << v.y() << ", " << v.z() << "]\n";
 }
 
-}  // namespace
-
-Rig read_rig(const std::filesystem::path& path) {
-  TomlTable table = TomlTable::from_file(path);
+Rig rig_from_table(TomlTable table, const std::filesystem::path& path) {
   Rig rig;
   rig.name = table.text_if("name").value_or(path.stem().string());
   rig.stripe_direction = read_direction(table);
@@ -99,10 +97,19 @@ Rig read_rig(const std::filesystem::path& path) {
   return rig;
 }
 
-void write_rig(const std::filesystem::path& path, const Rig& rig) {
+}  // namespace
+
+Rig read_rig(const std::filesystem::path& path) {
+  return rig_from_table(TomlTable::from_file(path), path);
+}
+
+Rig parse_rig(const std::string& text, const std::string& source) {
+  return rig_from_table(TomlTable::from_text(text, source), source);
+}
+
+std::string rig_text(const Rig& rig) {
   rig.check();
-  AtomicFile file(path);
-  std::ostream& out = file.stream();
+  std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(17);
   const Camera& c = rig.camera;
@@ -125,6 +132,13 @@ void write_rig(const std::filesystem::path& path, const Rig& rig) {
   write_vector(out, "direction", rig.axis.direction);
   if (rig.covariance) write_covariance(out, *rig.covariance);
   write_simple_calibrations(out, rig);
+  return out.str();
+}
+
+void write_rig(const std::filesystem::path& path, const Rig& rig) {
+  const std::string text = rig_text(rig);
+  AtomicFile file(path);
+  file.stream() << text;
   file.commit();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/nearest_name.hpp>
+#include <facula/acquire/core/whole_file.hpp>
 #include <facula/acquire/rig/toml_table.hpp>
 
 #include <cmath>
@@ -34,13 +35,17 @@ TomlTable TomlTable::from_file(const std::filesystem::path& path) {
           "there is no file '",
           path.string(),
           "'; check the path");
+  return from_text(read_whole_file(path), path.string());
+}
+
+TomlTable TomlTable::from_text(const std::string& text, const std::string& source) {
   auto impl = std::make_unique<Impl>();
-  impl->file = path;
+  impl->file = source;
   try {
-    impl->root = std::make_shared<const toml::table>(toml::parse_file(path.string()));
+    impl->root = std::make_shared<const toml::table>(toml::parse(text, source));
   } catch (const toml::parse_error& error) {
     fail("'",
-         path.string(),
+         source,
          "' is not valid TOML: line ",
          error.source().begin.line,
          ", column ",

@@ -21,6 +21,9 @@ class TomlTable {
   /// Parses a file. Throws Error when it is missing or not TOML (with line and column).
   static TomlTable from_file(const std::filesystem::path& path);
 
+  /// Parses a text; `source` is what complaints call it.
+  static TomlTable from_text(const std::string& text, const std::string& source);
+
   TomlTable(TomlTable&&) noexcept;
   TomlTable& operator=(TomlTable&&) noexcept;
   ~TomlTable();
