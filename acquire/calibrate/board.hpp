@@ -3,6 +3,8 @@
 
 #include <facula/acquire/core/image_view.hpp>
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -25,7 +27,9 @@ struct Board {
   int rows = 6;            ///< [1]
   double spacing = 0.025;  ///< between neighbouring points of a row [m]; asymmetric circles: half
                            ///< of it, as OpenCV counts: x = (2 col + row % 2) spacing
-  double marker_size = 0;  ///< side of a ChArUco marker, 0 = 0.8 spacing [m]
+  double circle_diameter = 0;  ///< 0 = not known: the bias of the circles' centres stays in; where
+                               ///< a picture is made, half a spacing [m]
+  double marker_size = 0;      ///< side of a ChArUco marker, 0 = 0.8 spacing [m]
   std::string dictionary = "4x4_50";  ///< of a ChArUco board: "4x4_50" ... "7x7_1000"
 
   std::size_t size() const {
@@ -34,6 +38,14 @@ struct Board {
 
   /// Point `id` (row * cols + col) in the board frame [m].
   Eigen::Vector3d point(int id) const;
+
+  double marker_side() const { return marker_size > 0 ? marker_size : 0.8 * spacing; }
+
+  /// Distance of a point to its nearest neighbour [m].
+  double pitch() const;
+
+  /// The corners of the rectangle `margin` pitches outside the outer points, in order round it [m].
+  std::array<Eigen::Vector3d, 4> outline(double margin) const;
 
   /// Throws Error naming the field.
   void check() const;
