@@ -32,7 +32,7 @@ RangeModel read_range(TomlTable table) {
     model.highest_px = fitted[1];
   }
   if (table.has("covariance")) {
-    const auto unit = in_millimetres().inverse();
+    const Eigen::DiagonalMatrix<double, 3> unit = in_millimetres().inverse();
     model.covariance =
         unit * matrix3(table.numbers("covariance"), table.where("covariance")) * unit;
   }
@@ -107,7 +107,7 @@ void write_range(std::ostream& out, const RangeModel& model) {
     out << "bend_per_px2 = " << model.bend << "\ncentre_px = " << model.centre << "\n";
   }
   write_list(out, "fitted_px", std::vector<double>{model.lowest_px, model.highest_px});
-  const auto unit = in_millimetres();
+  const Eigen::DiagonalMatrix<double, 3> unit = in_millimetres();
   if (!model.covariance.isZero(0)) {
     out << "# of slope, vanishing, bend\n";
     write_matrix(out, "covariance", unit * model.covariance * unit);

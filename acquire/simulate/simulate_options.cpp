@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
-#include <facula/acquire/simulate/simulate.hpp>
+#include <facula/acquire/simulate/laser_fan.hpp>
 
 #include <cmath>
 
@@ -25,13 +25,46 @@ double working_distance(const LaserPlane& sheet) {
   return crosses ? crossing : 4 * std::abs(sheet.distance);
 }
 
-// The sheet's point nearest to the camera centre within the plane z = 0.
-Eigen::Vector3d beside_camera(const LaserPlane& sheet) {
-  const Eigen::Vector2d across = sheet.normal.head<2>();
-  if (across.squaredNorm() < 1e-4) return sheet.distance * sheet.normal;  // square to the axis
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  origin.head<2>() = sheet.distance / across.squaredNorm() * across;
-  return origin;
+void check_beam(const GaussianBeam& beam) {
+  check_range("beam.waist", beam.waist, 1e-6, 1);
+  check_range("beam.focus", beam.focus, -1e3, 1e3);
+  check_range("beam.wavelength", beam.wavelength, 1e-8, 1e-4);
+  check_range("beam.quality", beam.quality, 1, 1e4);
+}
+
+void check_speckle(const Speckle& speckle) {
+  check_range("speckle.wavelength", speckle.wavelength, 1e-8, 1e-4);
+  check_range("speckle.f_number", speckle.f_number, 0.1, 1e3);
+  check_range("speckle.magnification", speckle.magnification, 0, 100);
+  check_range("speckle.pixel_pitch", speckle.pixel_pitch, 1e-7, 1e-3);
+  check_range("speckle.averages", speckle.averages, 1, 1e4);
+  check_range("speckle's grain [px]", speckle.grain(), 0, 50);
+}
+
+void check_lens(const Lens& lens) {
+  check_range("lens.blur", lens.blur, 0, 20);
+  check_range("lens.glare_share", lens.glare_share, 0, 1);
+  check_range("lens.glare_blur", lens.glare_blur, 0, 200);
+  check_range("lens.vignetting", lens.vignetting, 0, 40);
+}
+
+void check_timing(const Timing& timing, const Flicker& flicker) {
+  check_range("timing.frame_interval", timing.frame_interval, 0, 3600);
+  check_range("timing.exposure_time", timing.exposure_time, 0, 3600);
+  check_range("timing.row_time", timing.row_time, 0, 1);
+  check_range("flicker.depth", flicker.depth, 0, 1);
+  check_range("flicker.frequency", flicker.frequency, 0, 1e6);
+  check_range("flicker.phase", flicker.phase, -1e3, 1e3);
+}
+
+void check_axis_errors(const AxisErrors& errors) {
+  check_range("axis_errors.noise", errors.noise, 0, 1);
+  check_range("axis_errors.periodic_amplitude", errors.periodic_amplitude, -1, 1);
+  check_range("axis_errors.period", errors.period, 1e-9, 1e6);
+  check_range("axis_errors.phase", errors.phase, -1e3, 1e3);
+  check_range("axis_errors.backlash", errors.backlash, 0, 1);
+  check_range("axis_errors.speed", errors.speed, -1e3, 1e3);
+  check_range("axis_errors.latency", errors.latency, 0, 60);
 }
 
 }  // namespace
@@ -48,11 +81,17 @@ void SimulateOptions::check() const {
   check_range("read_noise", read_noise, 0, 255);
   check_range("shot_noise", shot_noise, 0, 255);
   check_range("black_level", black_level, -255, 255);
-  check_range("axis_noise", axis_noise, 0, 1);
+  check_range("stripe_noise", stripe_noise, 0, 100);
+  if (beam) check_beam(*beam);
+  if (speckle) check_speckle(*speckle);
+  check_lens(lens);
+  check_timing(timing, flicker);
+  check_axis_errors(axis_errors);
 }
 
 SimulateOptions options_for(const Rig& rig) {
   rig.check();
+  require(!rig.lasers.empty(), "rig '", rig.name, "' has no [[laser]]: nothing can be simulated");
   const LaserPlane& sheet = rig.lasers.front();
   const double focal_length = 0.5 * (rig.camera.fx + rig.camera.fy);
   const double distance = working_distance(sheet);
