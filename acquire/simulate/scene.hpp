@@ -39,7 +39,14 @@ struct SceneObject {
   Shape shape;
   RigidTransform world_from_object;
   double albedo = 0.7;  ///< share of light that is scattered back, Lambertian [0..1]
+  /// Red, green and blue of the object, as shares of its albedo and of its glow [0..1].
+  Eigen::Vector3d colour = Eigen::Vector3d::Ones();
+  double mirror = 0;  ///< share that is reflected as by a mirror, boxes only; with albedo at most 1
+  double glow = 0;    ///< signal that the object sends by itself, alike to all sides [DN]
 };
+
+/// Throws Error naming the object and what about it cannot be.
+void check_object(const SceneObject& object);
 
 /// Where a ray meets the scene.
 struct SceneHit {
@@ -80,7 +87,8 @@ class Scene {
 
 /// Reads scene.toml: [[object]] tables with name, shape = "box" | "room" | "sphere" | "cylinder" |
 /// "mesh", size_mm / radius_mm / height_mm / file + unit_mm, position_mm, rotation_deg (about x, y,
-/// z, applied in that order), albedo. Throws Error as read_rig() does.
+/// z, applied in that order), albedo, colour (red, green, blue), mirror, glow_dn. Throws Error as
+/// read_rig() does.
 Scene read_scene(const std::filesystem::path& path);
 
 }  // namespace facula

@@ -251,19 +251,7 @@ void Scene::Impl::build() {
 }
 
 Scene::Scene(std::vector<SceneObject> objects) {
-  for (const SceneObject& object : objects) {
-    check_shape(object.shape);
-    require(object.albedo >= 0 && object.albedo <= 1,
-            "the albedo of '",
-            object.name,
-            "' must lie in [0, 1], but is ",
-            object.albedo);
-    require(object.world_from_object.translation.allFinite() &&
-                std::abs(object.world_from_object.rotation.norm() - 1) < 1e-6,
-            "the pose of '",
-            object.name,
-            "' must be finite and its quaternion of length 1");
-  }
+  for (const SceneObject& object : objects) check_object(object);
   impl_ = std::make_unique<Impl>(std::move(objects));
   impl_->build();
 }

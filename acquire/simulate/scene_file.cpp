@@ -51,6 +51,9 @@ SceneObject read_object(TomlTable& table) {
   object.world_from_object.rotation =
       rotation_from_degrees(table.vector3_if("rotation_deg").value_or(zero));
   object.albedo = table.number_if("albedo").value_or(object.albedo);
+  object.colour = table.vector3_if("colour").value_or(object.colour);
+  object.mirror = table.number_if("mirror").value_or(object.mirror);
+  object.glow = table.number_if("glow_dn").value_or(object.glow);
   table.finish();
   return object;
 }

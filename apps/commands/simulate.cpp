@@ -70,7 +70,7 @@ SimulateOptions light_for(const Rig& rig, const LightOverrides& o) {
   options.ambient = o.ambient;
   options.read_noise = o.read_noise;
   options.shot_noise = o.shot_noise;
-  options.axis_noise = rig.axis.is_revolute() ? o.axis_noise_angle : o.axis_noise_length;
+  options.axis_errors.noise = rig.axis.is_revolute() ? o.axis_noise_angle : o.axis_noise_length;
   if (o.laser_peak) options.laser_peak = *o.laser_peak;
   if (o.line_half_width) options.line_half_width = *o.line_half_width;
   if (o.exposure_falloff) options.exposure_falloff = *o.exposure_falloff;

@@ -109,7 +109,7 @@ TEST(SimulateCapture, AxisNoiseMovesTheHeadAndNotTheProgramme) {
   const TemporaryFolder folder;
   const Rig rig = pan_head();
   SimulateOptions options = options_for(rig);
-  options.axis_noise = 0.001;
+  options.axis_errors.noise = 0.001;
   const SimulatedRun run = small_run();
   simulate_capture(folder / "run", small_room(), rig, run, options);
   const std::vector<double> programme = read_capture(folder / "run").positions;
