@@ -9,21 +9,6 @@
 namespace facula {
 namespace {
 
-/// Derivative of Camera::distort().
-Eigen::Matrix2d distortion_jacobian(const Camera& c, const Eigen::Vector2d& n) {
-  const double x = n.x();
-  const double y = n.y();
-  const double r2 = x * x + y * y;
-  const double radial = 1 + r2 * (c.k1 + r2 * (c.k2 + r2 * c.k3));
-  const double slope = 2 * (c.k1 + r2 * (2 * c.k2 + 3 * r2 * c.k3));  // d radial / d r2, doubled
-  Eigen::Matrix2d j;
-  j(0, 0) = radial + x * x * slope + 2 * c.p1 * y + 6 * c.p2 * x;
-  j(0, 1) = x * y * slope + 2 * c.p1 * x + 2 * c.p2 * y;
-  j(1, 0) = j(0, 1);
-  j(1, 1) = radial + y * y * slope + 6 * c.p1 * y + 2 * c.p2 * x;
-  return j;
-}
-
 void check_number(double value, double limit, const char* name) {
   require(std::isfinite(value) && std::abs(value) <= limit,
           "camera ",
@@ -45,6 +30,20 @@ Eigen::Vector2d Camera::distort(const Eigen::Vector2d& normalized) const {
           y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
 }
 
+Eigen::Matrix2d Camera::distortion_jacobian(const Eigen::Vector2d& normalized) const {
+  const double x = normalized.x();
+  const double y = normalized.y();
+  const double r2 = x * x + y * y;
+  const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  const double slope = 2 * (k1 + r2 * (2 * k2 + 3 * r2 * k3));  // d radial / d r2, doubled
+  Eigen::Matrix2d j;
+  j(0, 0) = radial + x * x * slope + 2 * p1 * y + 6 * p2 * x;
+  j(0, 1) = x * y * slope + 2 * p1 * x + 2 * p2 * y;
+  j(1, 0) = j(0, 1);
+  j(1, 1) = radial + y * y * slope + 6 * p1 * y + 2 * p2 * x;
+  return j;
+}
+
 Eigen::Vector2d Camera::project(const Eigen::Vector3d& x_in_camera) const {
   const Eigen::Vector2d d = distort(x_in_camera.head<2>() / x_in_camera.z());
   return {fx * d.x() + cx, fy * d.y() + cy};
@@ -56,13 +55,13 @@ std::optional<Eigen::Vector2d> Camera::undistort(const Eigen::Vector2d& pixel) c
   for (int step = 0; step < 20; ++step) {
     const Eigen::Vector2d error = distort(n) - wanted;
     if (error.squaredNorm() < 1e-26) break;
-    const Eigen::Matrix2d jacobian = distortion_jacobian(*this, n);
+    const Eigen::Matrix2d jacobian = distortion_jacobian(n);
     if (!(jacobian.determinant() > 1e-3)) return std::nullopt;
     n -= jacobian.inverse() * error;
   }
   // Newton's method may land behind the fold, where the image of n is right but n is not.
   if (!n.allFinite() || (distort(n) - wanted).norm() > 1e-9 ||
-      !(distortion_jacobian(*this, n).determinant() > 1e-3)) {
+      !(distortion_jacobian(n).determinant() > 1e-3)) {
     return std::nullopt;
   }
   return n;

@@ -26,6 +26,9 @@ struct Camera {
   /// Distorts a point of the plane z = 1.
   Eigen::Vector2d distort(const Eigen::Vector2d& normalized) const;
 
+  /// Derivative of distort() there.
+  Eigen::Matrix2d distortion_jacobian(const Eigen::Vector2d& normalized) const;
+
   /// Pixel of a point in the camera frame; z must be above 0.
   Eigen::Vector2d project(const Eigen::Vector3d& x_in_camera) const;
 
