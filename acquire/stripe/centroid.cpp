@@ -1,77 +1,109 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <facula/acquire/core/median.hpp>
 #include <facula/acquire/stripe/centroid.hpp>
+#include <facula/acquire/stripe/peak_shape.hpp>
+#include <facula/acquire/stripe/position_noise.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
+#include <numbers>
 
 namespace facula {
 namespace {
 
 constexpr int kReach = 10;  // [px], source B (2.3)
 
+/// Columns [begin, end) whose heights over `level` are the weights of the mean.
+struct Weighing {
+  int begin = 0;
+  int end = 0;
+  double level = 0;
+};
+
+/// Mean and its noise; false where the weights do not sum to a mean within the columns.
+bool weigh(const SignalRow& row, const Weighing& over, int level_count, StripeCandidate& found) {
+  double weight = 0;
+  double moment = 0;
+  for (int c = over.begin; c < over.end; ++c) {
+    weight += row.at(c) - over.level;
+    moment += (row.at(c) - over.level) * c;
+  }
+  if (!(weight > 0)) return false;
+  const double mean = moment / weight;
+  if (!(mean >= over.begin && mean <= over.end - 1)) return false;
+  PositionNoise noise;
+  for (int c = over.begin; c < over.end; ++c) {
+    noise.add((c - mean) / weight, row.at(c) - static_cast<double>(found.background));
+  }
+  noise.share_background(level_count);
+  noise.store(found);
+  found.position = static_cast<float>(mean);
+  return true;
+}
+
 class Centroid : public RowDetector {
  public:
+  explicit Centroid(double sigma) : sigma_(sigma) {}
+
   std::optional<StripeCandidate> measure(const StripeSignal& signal,
                                          int r,
                                          int peak) const override {
     const SignalRow row = signal.row(r);
-    // The brightest pixel near the peak; of equal ones the middle between the first and the last.
-    int brightest = std::numeric_limits<int>::min();
-    int first = peak;
-    int last = peak;
-    const int end = std::min(row.end, peak + kReach + 1);
-    for (int c = std::max(row.begin, peak - kReach); c < end; ++c) {
-      if (row.at(c) > brightest) {
-        brightest = row.at(c);
-        first = c;
-      }
-      if (row.at(c) == brightest) last = c;
-    }
-    StripeCandidate found;
-    std::vector<std::int16_t> values(row.values, row.values + (row.end - row.begin));
-    found.background = static_cast<float>(median(values));
-    found.amplitude = static_cast<float>(brightest) - found.background;
-    const int middle = (first + last) / 2;
-    weigh(row, middle, found);
-    found.saturated = row.is_clipped(middle);
-    found.snr_per_noise = found.amplitude;
-    if (!(found.amplitude > 0) || !(found.sigma_per_noise > 0)) return std::nullopt;
+    const auto shape = peak_shape(row, peak, sigma_);
+    if (!shape) return std::nullopt;
+    auto found = describe_peak(row, *shape);
+    if (!found) return std::nullopt;
+    const Weighing over = {std::max(row.begin, shape->middle() - kReach),
+                           std::min(row.end, shape->middle() + kReach + 1),
+                           shape->background};
+    if (!weigh(row, over, shape->background_count, *found)) return std::nullopt;
+    found->sigma_step = cut_by_window(static_cast<double>(found->width));
     return found;
   }
 
  private:
-  /// Mean m, spread, and what noise of 1 DN in every pixel does to the mean:
-  /// sqrt(sum (x - m)^2) / sum I.
-  static void weigh(const SignalRow& row, int middle, StripeCandidate& found) {
-    const int begin = std::max(row.begin, middle - kReach);
-    const int end = std::min(row.end, middle + kReach + 1);
-    double weight = 0;
-    double moment = 0;
-    double square = 0;
-    for (int c = begin; c < end; ++c) {
-      const double w = std::max(0.0F, static_cast<float>(row.at(c)) - found.background);
-      weight += w;
-      moment += w * c;
-      square += w * c * c;
-    }
-    if (!(weight > 0)) return;
-    const double mean = moment / weight;
-    double lever = 0;
-    for (int c = begin; c < end; ++c) lever += (c - mean) * (c - mean);
-    found.position = static_cast<float>(mean);
-    found.width = static_cast<float>(std::sqrt(std::max(0.0, square / weight - mean * mean)));
-    found.sigma_per_noise = static_cast<float>(std::sqrt(lever) / weight);
+  static float cut_by_window(double width) {
+    constexpr double kHalf = kReach + 0.5;
+    const double z = kHalf / std::max(0.1, width);
+    const double density = std::exp(-0.5 * z * z) / (width * std::sqrt(2 * std::numbers::pi));
+    return static_cast<float>(2 * kHalf * density / std::sqrt(12.0));
   }
+
+  double sigma_;
+};
+
+class ThresholdCentroid : public RowDetector {
+ public:
+  ThresholdCentroid(double sigma, double threshold) : sigma_(sigma), threshold_(threshold) {}
+
+  std::optional<StripeCandidate> measure(const StripeSignal& signal,
+                                         int r,
+                                         int peak) const override {
+    const SignalRow row = signal.row(r);
+    const auto shape = peak_shape(row, peak, sigma_);
+    if (!shape) return std::nullopt;
+    auto found = describe_peak(row, *shape);
+    if (!found) return std::nullopt;
+    Weighing over = {shape->middle(), shape->middle(), shape->background + threshold_};
+    if (!(row.at(over.begin) > over.level)) return std::nullopt;
+    while (row.holds(over.begin - 1) && row.at(over.begin - 1) > over.level) --over.begin;
+    while (row.holds(over.end) && row.at(over.end) > over.level) ++over.end;
+    if (!weigh(row, over, shape->background_count, *found)) return std::nullopt;
+    return found;
+  }
+
+ private:
+  double sigma_;
+  double threshold_;
 };
 
 }  // namespace
 
-std::unique_ptr<RowDetector> make_centroid() {
-  return std::make_unique<Centroid>();
+std::unique_ptr<RowDetector> make_centroid(double sigma) {
+  return std::make_unique<Centroid>(sigma);
+}
+
+std::unique_ptr<RowDetector> make_threshold_centroid(double sigma, double threshold) {
+  return std::make_unique<ThresholdCentroid>(sigma, threshold);
 }
 
 }  // namespace facula

@@ -12,6 +12,8 @@ struct StripeCandidate {
   float row_noise = 0;        ///< of this row, as the detector's filter sees it [DN]
   float snr_per_noise = 0;    ///< response over its standard deviation for noise of 1 DN [1/DN]
   float sigma_per_noise = 0;  ///< standard deviation of position for noise of 1 DN [px/DN]
+  float sigma_step = 0;       ///< part of the standard deviation that no light removes: the
+                              ///< detector's own steps or bias [px]
   float residual = 0;         ///< mean square left by the fitted profile [DN^2]
   float residual_share = 0;  ///< of a variance that follows the signal: its mean where the residual
                              ///< is taken over its value at the amplitude [1]

@@ -7,6 +7,7 @@
 #include <facula/acquire/stripe/row_noise.hpp>
 #include <facula/acquire/stripe/stripe_detector.hpp>
 #include <facula/acquire/stripe/stripe_location.hpp>
+#include <facula/acquire/stripe/stripe_median.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -110,7 +111,7 @@ void store(const StripeCandidate& found, float gain, std::size_t r, StripeProfil
   }
   profile.seen[r] = 1;
   profile.position[r] = found.position;
-  profile.sigma[r] = found.sigma_per_noise * std::sqrt(variance);
+  profile.sigma[r] = std::hypot(found.sigma_per_noise * std::sqrt(variance), found.sigma_step);
   profile.amplitude[r] = found.amplitude;
   profile.width[r] = found.width;
   profile.saturated[r] = found.saturated ? 1 : 0;
@@ -127,6 +128,9 @@ void StripeOptions::check() const {
           "stripe min_amplitude: expected 0 to 255, got ",
           min_amplitude);
   require(max_width_ratio > 1, "stripe max_width_ratio: expected above 1, got ", max_width_ratio);
+  require(median_rows == 1 || median_rows == 3,
+          "stripe median_rows: expected 1 (off) or 3, got ",
+          median_rows);
   require(min_run >= 1, "stripe min_run: expected 1 or more, got ", min_run);
   require(region.x >= 0 && region.y >= 0 && region.width >= 0 && region.height >= 0,
           "stripe region_px: expected 0 or more, got [",
@@ -199,6 +203,7 @@ StripeProfile measure_stripe(const StripeSignal& signal,
   for (std::size_t r = 0; r < candidates.size(); ++r) {
     if (candidates[r]) store(*candidates[r], gain, r, profile);
   }
+  if (options.median_rows == 3) median_along(profile, options.detector == DetectorKind::kSteger);
   return profile;
 }
 

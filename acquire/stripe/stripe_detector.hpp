@@ -13,9 +13,20 @@
 namespace facula {
 
 enum class DetectorKind {
-  kFirZeroCrossing,  ///< zero crossing of the Gaussian-smoothed derivative (Forest 2004; Steger
-                     ///< 1998)
-  kCentroid          ///< centre of gravity of +-10 px about the brightest (source B, 2.3)
+  kFirZeroCrossing,    ///< zero crossing of the Gaussian-smoothed derivative (Forest 2004; Steger
+                       ///< 1998)
+  kCentroid,           ///< centre of gravity of +-10 px about the brightest (source B, 2.3)
+  kThresholdCentroid,  ///< centre of gravity of what exceeds a threshold (source D)
+  kBrightestPixel,     ///< whole pixel (source B, 2.2)
+  kMaximumThreshold,   ///< middle of the brightest pixels over a threshold (source D)
+  kOneThreshold,       ///< mean of two crossings, 1/2 px (source D)
+  kTwoThresholds,      ///< mean of four crossings, 1/4 px (source D)
+  kParabola,           ///< parabola through three pixels (Naidu and Fisher 1991)
+  kGauss,              ///< Gaussian through three pixels (Naidu and Fisher 1991)
+  kLogGauss,           ///< weighted fit to the logarithm (Caruana 1986; Guo 2011)
+  kBlaisRioux4,        ///< zero crossing of 4 pixels (Blais and Rioux 1986)
+  kBlaisRioux8,        ///< zero crossing of 8 pixels (Blais and Rioux 1986)
+  kSteger              ///< ridge in two dimensions (Steger 1998)
 };
 
 /// Part of the image that is searched; width or height 0 means up to the border.
@@ -35,6 +46,7 @@ struct StripeOptions {
   double min_amplitude = 8;    ///< least height over the surroundings [DN], 0 to 255
   double max_width_ratio = 4;  ///< widest stripe kept, in units of sigma [1], above 1
   int min_run = 4;             ///< rows a stripe must hang together, gaps of 2 allowed [1], 1 = any
+  int median_rows = 1;         ///< positions become the median of so many rows: 1 = off, or 3
   ImageRegion region;          ///< [px]
 
   /// Throws Error naming the field, its value and its bound.
@@ -62,7 +74,10 @@ struct StripeProfile {
 /// Error on an empty frame, options out of range, or a background that does not fit the frame.
 StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const StripeOptions& options);
 
-/// "fir" or "centroid".
+/// The detectors by the names people give them, the default first.
+std::vector<std::string> detector_names();
+
+/// One of detector_names().
 DetectorKind detector_from_name(const std::string& name);
 std::string to_string(DetectorKind kind);
 

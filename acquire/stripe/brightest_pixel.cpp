@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/stripe/brightest_pixel.hpp>
+#include <facula/acquire/stripe/peak_shape.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace facula {
+namespace {
+
+class BrightestPixel : public RowDetector {
+ public:
+  BrightestPixel(double sigma, double threshold, bool halves)
+      : sigma_(sigma), threshold_(threshold), halves_(halves) {}
+
+  std::optional<StripeCandidate> measure(const StripeSignal& signal,
+                                         int r,
+                                         int peak) const override {
+    const SignalRow row = signal.row(r);
+    const auto shape = peak_shape(row, peak, sigma_);
+    if (!shape || shape->height() < threshold_) return std::nullopt;
+    auto found = describe_peak(row, *shape);
+    if (!found) return std::nullopt;
+    if (halves_) found->position = 0.5F * static_cast<float>(shape->first + shape->last);
+    found->sigma_step = static_cast<float>(1 / std::sqrt(12.0));
+    const float w = found->width;
+    found->sigma_per_noise = std::numbers::sqrt2_v<float> * w * w / found->amplitude;
+    found->position_share = 1;  // the pixels that compete stand at the top
+    return found;
+  }
+
+ private:
+  double sigma_;
+  double threshold_;
+  bool halves_;
+};
+
+}  // namespace
+
+std::unique_ptr<RowDetector> make_brightest_pixel(double sigma) {
+  return std::make_unique<BrightestPixel>(sigma, 0.0, false);
+}
+
+std::unique_ptr<RowDetector> make_maximum_threshold(double sigma, double threshold) {
+  return std::make_unique<BrightestPixel>(sigma, threshold, true);
+}
+
+}  // namespace facula
