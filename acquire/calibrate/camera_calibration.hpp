@@ -28,6 +28,10 @@ struct CalibratedView {
   double rms = 0;                    ///< of the point distances [px]
   double held_out_rms = 0;           ///< of the same view when intrinsics come from the others [px]
   double tilt = 0;                   ///< between the board's normal and the camera's axis [rad]
+  std::size_t points = 0;            ///< used [1]
+  /// Of a small turn [rad], then a small shift [m] of the board, along its own axes at its origin,
+  /// the camera taken as exact: camera_from_board * exp(...).
+  Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 struct CameraCalibration {
