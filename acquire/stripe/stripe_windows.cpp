@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
-#include <facula/acquire/stripe/stripe_location.hpp>
+#include <facula/acquire/stripe/stripe_detector.hpp>
 #include <facula/acquire/stripe/stripe_windows.hpp>
 
 #include <algorithm>
@@ -10,22 +10,10 @@
 namespace facula {
 namespace {
 
-constexpr int kReach = 40;  // rows without a find that keep a window beside those with one
+constexpr int kReach = 40;  // rows without a stripe that keep a window beside those with one
 
-/// The least response, in units of its noise, that a line of signal-to-noise 1 may show at the
-/// pixel next to its middle: (1 - d^2 / v) exp(-d^2 / 2v) at d = 1/2 and v = sigma^2, the filter's
-/// own width (see fir_zero_crossing.cpp); a tenth less for what the neighbours' noise adds.
-double least_share(double sigma) {
-  const double v = sigma * sigma;
-  return 0.9 * std::max(0.0, 1 - 0.25 / v) * std::exp(-0.125 / v);
-}
-
-bool may_be_stripe(const StripeLocation& location, std::size_t r, double least_snr) {
-  if (location.peak[r] < 0) return false;
-  const float frame = location.noise;
-  const float row = location.row_noise[r];
-  const float noise = row > 1.5F * frame ? row : frame;
-  return static_cast<double>(location.peak_per_noise[r]) >= least_snr * static_cast<double>(noise);
+int column_of(const StripeProfile& profile, std::size_t r) {
+  return static_cast<int>(std::lround(profile.position[r]));
 }
 
 int centred(int column, int cols, int width) {
@@ -34,11 +22,11 @@ int centred(int column, int cols, int width) {
 
 /// Windows of the rows between two found ones, or beside the only one.
 void bridge(const std::vector<int>& found,
-            const StripeLocation& location,
+            const StripeProfile& profile,
             int cols,
             WindowPlaces& places) {
-  const int rows = static_cast<int>(location.size());
-  const auto peak = [&](int r) { return location.peak[static_cast<std::size_t>(r)]; };
+  const int rows = static_cast<int>(profile.size());
+  const auto peak = [&](int r) { return column_of(profile, static_cast<std::size_t>(r)); };
   for (std::size_t i = 0; i <= found.size(); ++i) {
     const int above = i == 0 ? -1 : found[i - 1];
     const int below = i == found.size() ? rows : found[i];
@@ -116,21 +104,17 @@ int window_width(int row_pixels, int channels) {
   return std::min(row_pixels, std::clamp(affordable, 48, 128));
 }
 
-WindowPlaces place_windows(const StripeLocation& location,
-                           const StripeOptions& options,
-                           int cols,
-                           int width) {
+WindowPlaces place_windows(const StripeProfile& profile, int cols, int width) {
   WindowPlaces places;
   places.width = std::min(width, cols);
-  places.begin.assign(location.size(), -1);
-  const double least_snr = options.min_snr * least_share(options.sigma);
+  places.begin.assign(profile.size(), -1);
   std::vector<int> found;
-  for (std::size_t r = 0; r < location.size(); ++r) {
-    if (!may_be_stripe(location, r, least_snr)) continue;
+  for (std::size_t r = 0; r < profile.size(); ++r) {
+    if (profile.seen[r] == 0) continue;
     found.push_back(static_cast<int>(r));
-    places.begin[r] = centred(location.peak[r], cols, places.width);
+    places.begin[r] = centred(column_of(profile, r), cols, places.width);
   }
-  if (!found.empty()) bridge(found, location, cols, places);
+  if (!found.empty()) bridge(found, profile, cols, places);
   return places;
 }
 

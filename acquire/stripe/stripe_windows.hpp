@@ -9,8 +9,7 @@
 
 namespace facula {
 
-struct StripeLocation;
-struct StripeOptions;
+struct StripeProfile;
 
 /// The pixels of a frame about its stripe: of every row (column, where the stripe runs per column)
 /// one window of `lit.cols` pixels, as they came from the camera. The same window is kept of the
@@ -40,14 +39,11 @@ struct WindowPlaces {
   std::vector<std::int32_t> begin;  ///< first column per row, -1 for no window [px]
 };
 
-/// Places windows of `width` along rows of `cols` pixels. Rows whose peak may be a stripe by
-/// options.min_snr have it in their window's middle. Rows up to 40 off take the place that these
-/// say, along a line that is straight between them, so that another detector finds there what the
-/// first one missed; the others keep nothing.
-WindowPlaces place_windows(const StripeLocation& location,
-                           const StripeOptions& options,
-                           int cols,
-                           int width);
+/// Places windows of `width` along rows of `cols` pixels. Rows where the stripe was seen have it in
+/// their window's middle. Rows up to 40 off take the place that these say, along a line that is
+/// straight between them, so that another detector finds there what this one missed; the others
+/// keep nothing.
+WindowPlaces place_windows(const StripeProfile& profile, int cols, int width);
 
 /// Cuts the windows out of a frame and its background (may be empty). `transpose` turns columns
 /// into rows.

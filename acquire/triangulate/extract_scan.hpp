@@ -6,6 +6,9 @@
 #include <facula/acquire/core/progress.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +17,21 @@ namespace facula {
 struct ExtractOptions {
   int num_threads = 0;  ///< 0 = all cores [1]
   Progress progress;    ///< called per frame; may be empty
+
+  /// A stripe log to write while extracting, see docs/stripe_log.md; empty for none. The scan is
+  /// then computed from what the log holds.
+  std::filesystem::path log;
+  bool resume = false;  ///< continue `log` where it is there: only what it lacks is read and added
+};
+
+/// What a stripe log holds, and what of it was lost.
+struct LogFigures {
+  std::uint64_t bytes = 0;          ///< of the file
+  std::uint64_t raw_bytes = 0;      ///< of the frames it stands for, as they came from the camera
+  std::size_t frames = 0;           ///< that can be used [1]
+  std::size_t appended = 0;         ///< of those, added in this run [1]
+  std::size_t dropped_records = 0;  ///< damaged within [1]
+  std::uint64_t torn_bytes = 0;     ///< behind the last whole record [1]
 };
 
 /// What a whole capture gave, and how well.
@@ -29,6 +47,7 @@ struct ExtractResult {
   double median_noise = 0;              ///< of the frames [DN]
   double median_point_sigma = 0;        ///< along the ray [m]
   std::vector<double> zero_line_shift;  ///< shift between run and reference, per frame [px]
+  std::optional<LogFigures> log;        ///< where a stripe log was written or read
 };
 
 /// The acquisition on one page: frames -> channel and background -> stripe per row -> ray meets

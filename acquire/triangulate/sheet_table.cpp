@@ -38,8 +38,7 @@ SheetTable::SheetTable(const Rig& rig, std::size_t laser, int num_threads)
   for (spacing_ = kWidest;; spacing_ /= 2) {
     nodes_ = (cols_ + spacing_ - 1) / spacing_ + 1;
     rays_.resize(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(nodes_));
-    const int step = std::max(1, (rows_ - 1) / kCheckedRows);
-    for (int row = 0; row < rows_; row += step) fill_row(row);
+    for (int k = 0; k <= kCheckedRows; ++k) fill_row(k * (rows_ - 1) / kCheckedRows);
     ray_error_ = worst_midway();
     if (ray_error_ <= kRayError || spacing_ <= kNarrowest) break;
   }
@@ -119,8 +118,8 @@ SheetTable::Ray SheetTable::interpolated(int row, double position) const {
 /// checked rows [px].
 double SheetTable::worst_midway() const {
   double worst = 0;
-  const int step = std::max(1, (rows_ - 1) / kCheckedRows);
-  for (int row = 0; row < rows_; row += step) {
+  for (int k = 0; k <= kCheckedRows; ++k) {
+    const int row = k * (rows_ - 1) / kCheckedRows;
     for (int i = 0; i + 1 < nodes_; ++i) {
       const double position = kFirst + (i + 0.5) * spacing_;
       const Ray ray = interpolated(row, position);

@@ -18,8 +18,8 @@ struct TriangulatedPoint {
 /// Undistort, then ray meets sheet `laser` (counted from 0) of the rig. `pixel_sigma` [px] is the
 /// standard deviation of the stripe's position along x for a stripe per row, along y per column; it
 /// is carried to the ray by the derivative of the intersection. None where the ray misses the sheet
-/// or the distortion cannot be inverted. A rig without sheets but with a range model answers by that
-/// (see triangulate_by_range()). Throws Error when the rig has no such laser.
+/// or the distortion cannot be inverted. A rig without sheets but with a range model answers by
+/// that (see triangulate_by_range()). Throws Error when the rig has no such laser.
 std::optional<TriangulatedPoint> triangulate(const Rig& rig,
                                              std::size_t laser,
                                              const Eigen::Vector2d& pixel,
