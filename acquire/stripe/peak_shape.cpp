@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 namespace facula {
 namespace {
@@ -98,23 +98,32 @@ void measure_misfit(const SignalRow& row, StripeCandidate& found) {
   const int last = std::min(row.end - 1, static_cast<int>(std::floor(position + 3 * width)));
   const int count = last - first + 1;
   if (count <= 4) return;
+  const auto basis = [&](int c) {
+    const double z = (c - position) / width;
+    const double g = std::exp(-0.5 * z * z);
+    return Eigen::Vector4d(1, g, z * g, z * z * g);
+  };
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
   double squares = 0;
+  for (int c = first; c <= last; ++c) {
+    const Eigen::Vector4d b = basis(c);
+    const double s = row.at(c) - static_cast<double>(found.background);
+    normal += b * b.transpose();
+    right += s * b;
+    squares += s * s;
+  }
+  const Eigen::Matrix4d inverse = normal.inverse();
+  const double left = squares - right.dot(inverse * right);
+  // Of each pixel's noise the fit leaves 1 - h, h its entry on the hat matrix's diagonal.
   double shares = 0;
   for (int c = first; c <= last; ++c) {
-    const double z = (c - position) / width;
-    const double g = std::exp(-0.5 * z * z);
-    const Eigen::Vector4d basis(1, g, z * g, z * z * g);
-    const double s = row.at(c) - static_cast<double>(found.background);
-    normal += basis * basis.transpose();
-    right += s * basis;
-    squares += s * s;
-    shares += g;
+    const Eigen::Vector4d b = basis(c);
+    shares += b[1] * (1 - b.dot(inverse * b));
   }
-  const double left = squares - right.dot(normal.ldlt().solve(right));
   found.residual = static_cast<float>(std::max(0.0, left) / (count - 4));
-  found.residual_share = static_cast<float>(shares / count);
+  found.residual_freedom = static_cast<float>(count - 4);
+  found.residual_share = static_cast<float>(std::max(0.0, shares) / (count - 4));
 }
 
 }  // namespace facula

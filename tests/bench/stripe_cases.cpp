@@ -8,7 +8,7 @@ namespace facula {
 namespace {
 
 constexpr int kRows = 1000;  // of one image
-constexpr int kCols = 100;
+constexpr int kCols = 200;
 constexpr double kLean = 0.0137;  // px per row: every place within a pixel comes up
 
 std::string number(double value) {
