@@ -188,4 +188,37 @@ Capture read_capture(const std::filesystem::path& path, const OptionalPath& fram
   return capture;
 }
 
+Capture with_rig(Capture capture, const std::filesystem::path& rig_file) {
+  const Rig old = std::move(capture.rig);
+  capture.rig = read_rig(rig_file);
+  capture.rig_file = rig_file;
+  const Rig& rig = capture.rig;
+  require(rig.camera.width == old.camera.width && rig.camera.height == old.camera.height,
+          rig_file.string(),
+          ": expected a rig whose camera has ",
+          old.camera.width,
+          " x ",
+          old.camera.height,
+          " px as the frames have, got ",
+          rig.camera.width,
+          " x ",
+          rig.camera.height,
+          "; name the rig that recorded them");
+  require(rig.stripe_direction == old.stripe_direction,
+          rig_file.string(),
+          ": expected a rig whose stripe runs the way it does in the frames; name the rig that "
+          "recorded them");
+  const std::string name = old.lasers.empty() ? "" : old.lasers[capture.laser].name;
+  for (capture.laser = 0; capture.laser < rig.lasers.size(); ++capture.laser) {
+    if (rig.lasers[capture.laser].name == name) return capture;
+  }
+  require(rig.light_count() == 1,
+          rig_file.string(),
+          ": the frames were lit by laser '",
+          name,
+          "', which this rig does not have; give one of its lasers that name");
+  capture.laser = 0;
+  return capture;
+}
+
 }  // namespace facula

@@ -16,4 +16,9 @@ namespace facula {
 Capture read_capture(const std::filesystem::path& path,
                      const std::optional<std::filesystem::path>& frames_folder = std::nullopt);
 
+/// The capture with a newer calibration in place of its own. The lit laser is the one of the same
+/// name, or the only one. Throws Error where the rig has neither, its camera is of another size, or
+/// its stripe runs the other way.
+Capture with_rig(Capture capture, const std::filesystem::path& rig_file);
+
 }  // namespace facula

@@ -84,22 +84,4 @@ ExtractResult extract_scan(const StripeLogReader& log,
   return result;
 }
 
-Capture with_rig(const StripeLogReader& log, const Rig& rig) {
-  check_fit(log, rig);
-  Capture capture = log.settings();
-  const std::string name = capture.rig.lasers.empty() ? "" : capture.rig.lasers[capture.laser].name;
-  capture.rig = rig;
-  for (capture.laser = 0; capture.laser < rig.lasers.size(); ++capture.laser) {
-    if (rig.lasers[capture.laser].name == name) return capture;
-  }
-  require(rig.light_count() == 1,
-          "the stripe log '",
-          log.name(),
-          "' was recorded with laser '",
-          name,
-          "', which the rig does not have; give one of its lasers that name");
-  capture.laser = 0;
-  return capture;
-}
-
 }  // namespace facula

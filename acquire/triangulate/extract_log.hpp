@@ -16,8 +16,4 @@ ExtractResult extract_scan(const StripeLogReader& log,
                            const Capture& capture,
                            const ExtractOptions& options = {});
 
-/// log.settings() with a newer calibration in the old one's place. The lit laser is the one of the
-/// same name, or the only one. Throws Error where there is none, or rig and log do not fit.
-Capture with_rig(const StripeLogReader& log, const Rig& rig);
-
 }  // namespace facula

@@ -30,6 +30,13 @@ long header_number(const fs::path& path, const std::string& words) {
   return 0;
 }
 
+/// By its first bytes, or by its name, so that a damaged one is called by what it should be.
+bool is_stripe_log(const fs::path& path) {
+  std::string magic(7, '\0');
+  std::ifstream(path, std::ios::binary).read(magic.data(), 7);
+  return magic == "FACULOG" || lower_extension(path) == ".flog";
+}
+
 FileKind toml_kind(const fs::path& path) {
   const TomlTable table = TomlTable::from_file(path);
   if (table.has("scan")) return FileKind::kProject;
@@ -57,6 +64,7 @@ FileKind file_kind(const fs::path& path) {
           path.string(),
           "'; check the path");
   if (fs::is_directory(path, unknown)) return folder_kind(path);
+  if (is_stripe_log(path)) return FileKind::kLog;
   std::string extension = lower_extension(path);
   if (extension == ".gz" || extension == ".xz") extension = lower_extension(path.stem());
   if (extension == ".toml") return toml_kind(path);
@@ -74,7 +82,8 @@ FileKind file_kind(const fs::path& path) {
     if (extension == points) return FileKind::kCloud;
   }
   fail(
-      "expected a file that facula reads (.toml, .pcd, .ply, .asc, .xyz, .obj, .stl, .bt, .ot, "
+      "expected a file that facula reads (.toml, .flog, .pcd, .ply, .asc, .xyz, .obj, .stl, .bt, "
+      ".ot, "
       ".yaml, .conf or a folder), got '",
       path.string(),
       "'; convert it first");
@@ -88,6 +97,8 @@ std::string to_string(FileKind kind) {
       return "scene";
     case FileKind::kCapture:
       return "capture";
+    case FileKind::kLog:
+      return "stripe log";
     case FileKind::kProject:
       return "project of posed scans";
     case FileKind::kScan:

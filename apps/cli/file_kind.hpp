@@ -11,6 +11,7 @@ enum class FileKind {
   kRig,      ///< rig.toml
   kScene,    ///< scene.toml
   kCapture,  ///< capture.toml, or a folder with one
+  kLog,      ///< stripe log, .flog
   kProject,  ///< poses.toml, *.conf, or a folder of 3DTK scans
   kScan,     ///< organised .pcd
   kCloud,    ///< points without a grid

@@ -2,9 +2,12 @@
 #include <facula/acquire/capture/capture_file.hpp>
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/scan_file.hpp>
-#include <facula/acquire/triangulate/extract_scan.hpp>
+#include <facula/acquire/rig/rig_file.hpp>
+#include <facula/acquire/triangulate/extract_log.hpp>
+#include <facula/apps/cli/file_kind.hpp>
 #include <facula/apps/cli/output_path.hpp>
 #include <facula/apps/commands/extract.hpp>
+#include <facula/apps/commands/log_figures.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +19,9 @@ namespace {
 struct ExtractArguments {
   std::filesystem::path capture;
   std::filesystem::path frames;
+  std::filesystem::path rig;
+  std::filesystem::path log;
+  bool resume = false;
   std::vector<std::filesystem::path> out;
   std::string detector;
   std::string channel;
@@ -24,12 +30,15 @@ struct ExtractArguments {
 };
 
 void declare(Arguments& arguments, ExtractArguments& a) {
-  arguments.input("CAPTURE", a.capture, "a capture folder, or its capture.toml");
+  arguments.input("CAPTURE", a.capture, "a capture folder, its capture.toml, or a stripe log");
   arguments.required();
   arguments.outputs(
       "--out", a.out, "the scan: .pcd keeps everything, .ply and .asc the points that are there");
   arguments.required();
   arguments.input("--frames", a.frames, "folder where the frames lie, if not beside the capture");
+  arguments.output("--log", a.log, "stripe log to write on the way: the scan can be made from it");
+  arguments.flag("--resume", a.resume, "go on with that log: read only the frames it lacks");
+  arguments.input("--rig", a.rig, "a newer calibration, instead of what capture or log say");
   arguments.choice("--detector",
                    a.detector,
                    {"fir", "centroid"},
@@ -85,6 +94,7 @@ void report(const ExtractResult& result, Figures& figures) {
   figures.number("noise_dn", "image noise, median", result.median_noise, 2);
   figures.number("point_sigma_mm", "point sigma, median", 1000 * result.median_point_sigma, 3);
   report_zero_line(result.zero_line_shift, figures);
+  if (result.log) report_log(*result.log, figures);
 }
 
 void require_stripes(const ExtractResult& result) {
@@ -99,13 +109,40 @@ void require_stripes(const ExtractResult& result) {
           " rows with a stripe; check [volume] of the capture and the rig");
 }
 
-void run(const ExtractArguments& a, Session& session) {
-  for (const auto& path : a.out) check_output(path, {".pcd", ".ply", ".asc"});
+ExtractResult extract_from_capture(const ExtractArguments& a, const Session& session) {
+  require(!a.resume || !a.log.empty(), "--resume needs the log to go on with; name it with --log");
   const auto frames = a.frames.empty() ? std::nullopt : std::optional(a.frames);
   Capture capture = read_capture(a.capture, frames);
+  if (!a.rig.empty()) capture = with_rig(std::move(capture), a.rig);
   apply_overrides(a, capture.stripe);
+  return extract_scan(capture,
+                      {.num_threads = session.num_threads,
+                       .progress = session.progress("reading stripes"),
+                       .log = a.log,
+                       .resume = a.resume});
+}
+
+ExtractResult extract_from_log(const ExtractArguments& a, const Session& session) {
+  require(a.log.empty() && !a.resume && a.frames.empty(),
+          "'",
+          a.capture.string(),
+          "' is a stripe log, which is read and not written; leave out --log, --resume and "
+          "--frames");
+  const StripeLogReader log(a.capture);
+  Capture capture = log.settings();
+  if (!a.rig.empty()) capture = with_rig(std::move(capture), a.rig);
+  apply_overrides(a, capture.stripe);
+  return extract_scan(
+      log,
+      capture,
+      {.num_threads = session.num_threads, .progress = session.progress("reading the log")});
+}
+
+void run(const ExtractArguments& a, Session& session) {
+  for (const auto& path : a.out) check_output(path, {".pcd", ".ply", ".asc"});
+  const bool from_log = file_kind(a.capture) == FileKind::kLog;
   const ExtractResult result =
-      extract_scan(capture, {session.num_threads, session.progress("reading stripes")});
+      from_log ? extract_from_log(a, session) : extract_from_capture(a, session);
   require_stripes(result);
   for (const auto& path : a.out) write_scan(path, result.scan);
   report(result, session.figures);
@@ -123,12 +160,17 @@ Command extract_command() {
           .description =
               "Finds the laser line in every frame of a capture to a fraction of a pixel, meets "
               "each ray with the laser plane, turns the points by the axis, and writes a polar "
-              "scan with a standard deviation per point.",
+              "scan with a standard deviation per point. With --log everything about the line goes "
+              "to one small file as it is found, frame by frame, from which the same scan can be "
+              "made again, or a better one with a newer rig or another detector.",
           .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
                        "data/rigs/head_fs1500.toml --from-deg 0 --to-deg 10 --step-deg 1 "
                        "--position-mm -1500 -300 1100 --out room",
                        "facula extract room --out room.pcd --out room.ply",
-                       "facula extract room --detector centroid --min-snr 8 --out centroid.pcd"},
+                       "facula extract room --detector centroid --min-snr 8 --out centroid.pcd",
+                       "facula extract room --log room.flog --out logged.pcd",
+                       "facula extract room --log room.flog --resume --out resumed.pcd",
+                       "facula extract room.flog --rig room/rig.toml --out again.pcd"},
           .declare = [a](Arguments& arguments) { declare(arguments, *a); },
           .run = [a](Session& session) { run(*a, session); }};
 }

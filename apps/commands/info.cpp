@@ -8,6 +8,7 @@
 #include <facula/apps/cli/file_kind.hpp>
 #include <facula/apps/commands/info.hpp>
 #include <facula/apps/commands/info_figures.hpp>
+#include <facula/apps/commands/log_figures.hpp>
 #include <facula/apps/commands/map_figures.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
 
@@ -22,10 +23,11 @@ struct InfoArguments {
 };
 
 void declare(Arguments& arguments, InfoArguments& a) {
-  arguments.input("FILE",
-                  a.file,
-                  "a rig, scene, capture, scan, cloud, mesh, project (poses.toml, .conf, folder), "
-                  "map (.bt, .ot) or navigation grid (.yaml)");
+  arguments.input(
+      "FILE",
+      a.file,
+      "a rig, scene, capture, stripe log, scan, cloud, mesh, project (poses.toml, .conf, folder), "
+      "map (.bt, .ot) or navigation grid (.yaml)");
   arguments.required();
   arguments.input("--frames", a.frames, "folder where the frames of a capture lie, if elsewhere");
 }
@@ -44,6 +46,8 @@ void run(const InfoArguments& a, Session& session) {
       const auto frames = a.frames.empty() ? std::nullopt : std::optional(a.frames);
       return describe(read_capture(a.file, frames), figures);
     }
+    case FileKind::kLog:
+      return describe(StripeLogReader(a.file), figures);
     case FileKind::kProject:
       return describe(read_scan_project(a.file), figures);
     case FileKind::kScan:
