@@ -75,18 +75,18 @@ bool LightPass::near_sheet(int c) const {
   return low <= 0 && high >= 0;
 }
 
-bool LightPass::at_edge(int r, int c) {
-  const int object = surfaces_.at(r, c).object;
-  const int right = setting_.rays.width() - 1;
-  const int bottom = setting_.rays.height() - 1;
-  return (c > 0 && surfaces_.at(r, c - 1).object != object) ||
-         (c < right && surfaces_.at(r, c + 1).object != object) ||
-         (r > 0 && surfaces_.at(r - 1, c).object != object) ||
-         (r < bottom && surfaces_.at(r + 1, c).object != object);
+bool LightPass::at_edge(int r, int c) const {
+  const auto i = static_cast<std::size_t>(c);
+  const Surface* here = surfaces_.row(r).data() + i;
+  const int object = here->object;
+  if (c > 0 && here[-1].object != object) return true;
+  if (c < setting_.rays.width() - 1 && here[1].object != object) return true;
+  if (r > 0 && surfaces_.row(r - 1)[i].object != object) return true;
+  return r < setting_.rays.height() - 1 && surfaces_.row(r + 1)[i].object != object;
 }
 
-Vector3d LightPass::ambient_at(int r, int c) {
-  if (!at_edge(r, c)) return ambient_of(surfaces_.at(r, c));
+Vector3d LightPass::ambient_at(int r, int c) const {
+  if (!at_edge(r, c)) return ambient_of(surfaces_.row(r)[static_cast<std::size_t>(c)]);
   Vector3d sum = Vector3d::Zero();
   for (int i = 0; i < kEdgeGrid * kEdgeGrid; ++i) {
     sum += ambient_of(surfaces_.cast(setting_.rays.within(r, c, i, kEdgeGrid)));
@@ -109,10 +109,10 @@ void LightPass::add_near_sheet(int r, int c, Vector3d& ambient, double& laser) {
                    : bend ? surfaces_.cast_on(centre.object, ray)
                           : surfaces_.cast(ray);
     spot.light = light;
-    ambient += ambient_of(spot);
+    if (!plane && !bend) ambient += ambient_of(spot) / (kLaserGrid * kLaserGrid);
     sum += laser_signal(spot);
   }
-  ambient /= kLaserGrid * kLaserGrid;
+  if (plane || bend) ambient = ambient_of(centre);
   laser += sum / (kLaserGrid * kLaserGrid);
 }
 
@@ -139,9 +139,9 @@ SpotLight LightPass::light_at(Surface& spot) const {
   return spot.light;
 }
 
-Vector3d LightPass::ambient_of(const Surface& spot) const {
-  return spot.object < 0 ? Vector3d(Vector3d::Zero())
-                         : setting_.objects[static_cast<std::size_t>(spot.object)].ambient;
+const Vector3d& LightPass::ambient_of(const Surface& spot) const {
+  static const Vector3d none = Vector3d::Zero();
+  return spot.object < 0 ? none : setting_.objects[static_cast<std::size_t>(spot.object)].ambient;
 }
 
 double LightPass::laser_signal(Surface& spot) const {

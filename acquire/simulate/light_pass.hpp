@@ -35,13 +35,13 @@ class LightPass {
  private:
   void find_reach(int r);
   bool near_sheet(int c) const;
-  bool at_edge(int r, int c);
-  Eigen::Vector3d ambient_at(int r, int c);
+  bool at_edge(int r, int c) const;
+  Eigen::Vector3d ambient_at(int r, int c) const;
   void add_near_sheet(int r, int c, Eigen::Vector3d& ambient, double& laser);
   bool is_convex(const Surface& surface) const;
   SpotLight common_light(int r, int c);
   SpotLight light_at(Surface& spot) const;
-  Eigen::Vector3d ambient_of(const Surface& spot) const;
+  const Eigen::Vector3d& ambient_of(const Surface& spot) const;
   double laser_signal(Surface& spot) const;
 
   const LightSetting& setting_;

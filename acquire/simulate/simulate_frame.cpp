@@ -74,7 +74,8 @@ FrameRenderer::FrameRenderer(const Scene& scene, const Rig& rig, const SimulateO
 FrameRenderer::Light FrameRenderer::gather(const RigidTransform& world_from_camera,
                                            bool laser_on) const {
   const int channels = options_.colour_frames ? 3 : 1;
-  Light light{{rays_.height(), rays_.width(), channels}, {rays_.height(), rays_.width()}};
+  Light light{{rays_.height(), rays_.width(), channels}, {}};
+  if (laser_on) light.laser = {rays_.height(), rays_.width()};
   const LightSetting setting{scene_, rays_, objects_, world_from_camera};
   std::vector<LightPath> paths;
   if (laser_on) paths = light_paths(fans_, mirrors_, world_from_camera);
@@ -82,11 +83,12 @@ FrameRenderer::Light FrameRenderer::gather(const RigidTransform& world_from_came
   const MirrorView mirror_view(setting, paths);
   for (int r = 0; r < rays_.height(); ++r) {
     double* ambient = light.ambient.row(r);
-    double* laser = light.laser.row(r);
+    double* laser = laser_on ? light.laser.row(r) : nullptr;
     first.add_row(r, channels, ambient, laser);
     for (int c = 0; c < rays_.width() && !mirrors_.empty(); ++c) {
       if (first.shows_mirror(r, c)) {
-        mirror_view.add_pixel(r, c, channels, ambient + c * channels, laser + c);
+        mirror_view.add_pixel(
+            r, c, channels, ambient + c * channels, laser_on ? laser + c : nullptr);
       }
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
+#include <facula/acquire/simulate/conditions_file.hpp>
 #include <facula/acquire/simulate/simulate.hpp>
 #include <facula/apps/cli/output_path.hpp>
 #include <facula/apps/commands/axis_programme.hpp>
@@ -11,17 +12,18 @@
 namespace facula {
 namespace {
 
-/// Light and sensor as typed; what is not given suits the rig.
+/// Light and sensor as typed; what is not given is as the conditions say, or else suits the rig.
 struct LightOverrides {
-  std::size_t laser = 0;                             ///< [1]
-  std::optional<double> laser_peak;                  ///< [DN]
-  std::optional<double> line_half_width;             ///< [m]
-  std::optional<double> exposure_falloff;            ///< [1]
-  double ambient = SimulateOptions().ambient;        ///< [DN]
-  double read_noise = SimulateOptions().read_noise;  ///< [DN]
-  double shot_noise = SimulateOptions().shot_noise;  ///< [DN]
-  double axis_noise_angle = 0;                       ///< [rad]
-  double axis_noise_length = 0;                      ///< [m]
+  std::size_t laser = 0;                    ///< [1]
+  std::filesystem::path conditions;         ///< empty: none
+  std::optional<double> laser_peak;         ///< [DN]
+  std::optional<double> line_half_width;    ///< [m]
+  std::optional<double> exposure_falloff;   ///< [1]
+  std::optional<double> ambient;            ///< [DN]
+  std::optional<double> read_noise;         ///< [DN]
+  std::optional<double> shot_noise;         ///< [DN]
+  std::optional<double> axis_noise_angle;   ///< [rad]
+  std::optional<double> axis_noise_length;  ///< [m]
 };
 
 struct SimulateArguments {
@@ -33,12 +35,16 @@ struct SimulateArguments {
   double yaw = 0;                                      ///< of the head or table [rad]
   AxisProgramme programme;
   bool background = false;
+  bool second_background = false;
   std::size_t seed = 1;
   LightOverrides light;
 };
 
 void declare_light(Arguments& arguments, LightOverrides& o) {
   arguments.whole("--laser", o.laser, "which laser plane of the rig is lit, the first is 0");
+  arguments.input("--conditions",
+                  o.conditions,
+                  "light, lens, speckle, sensor, and axis errors (conditions.toml)");
   arguments.number("--laser-peak-dn",
                    o.laser_peak,
                    kGreyLevels,
@@ -64,16 +70,22 @@ void declare_light(Arguments& arguments, LightOverrides& o) {
                    "position error of a linear axis, 1 sigma");
 }
 
+void override_with(const std::optional<double>& typed, double& value) {
+  if (typed) value = *typed;
+}
+
 SimulateOptions light_for(const Rig& rig, const LightOverrides& o) {
   SimulateOptions options = options_for(rig);
+  if (!o.conditions.empty()) options = read_conditions(o.conditions, rig, options);
   options.laser = o.laser;
-  options.ambient = o.ambient;
-  options.read_noise = o.read_noise;
-  options.shot_noise = o.shot_noise;
-  options.axis_errors.noise = rig.axis.is_revolute() ? o.axis_noise_angle : o.axis_noise_length;
-  if (o.laser_peak) options.laser_peak = *o.laser_peak;
-  if (o.line_half_width) options.line_half_width = *o.line_half_width;
-  if (o.exposure_falloff) options.exposure_falloff = *o.exposure_falloff;
+  override_with(o.ambient, options.ambient);
+  override_with(o.read_noise, options.read_noise);
+  override_with(o.shot_noise, options.shot_noise);
+  override_with(rig.axis.is_revolute() ? o.axis_noise_angle : o.axis_noise_length,
+                options.axis_errors.noise);
+  override_with(o.laser_peak, options.laser_peak);
+  override_with(o.line_half_width, options.line_half_width);
+  override_with(o.exposure_falloff, options.exposure_falloff);
   return options;
 }
 
@@ -88,7 +100,8 @@ void declare(Arguments& arguments, SimulateArguments& a) {
   arguments.vector("--position-mm", a.position, kMillimetres, "where the head (or table) stands");
   arguments.number("--yaw-deg", a.yaw, kDegrees, "how the head (or table) is turned about z");
   declare_axis_programme(arguments, a.programme);
-  arguments.flag("--background", a.background, "also take frames, laser off");
+  arguments.flag("--background", a.background, "also take a frame, laser off, before each");
+  arguments.flag("--second-background", a.second_background, "and another one after each");
   arguments.whole("--seed", a.seed, "of the noise");
   declare_light(arguments, a.light);
 }
@@ -102,7 +115,8 @@ void run(const SimulateArguments& a, Session& session) {
   const Rig rig = read_rig(a.rig);
   const SimulatedRun simulated{pose_of(a), axis_positions(a.programme, rig.axis)};
   SimulateOptions options = light_for(rig, a.light);
-  options.background_frames = a.background;
+  options.background_frames = a.background || a.second_background;
+  options.second_background = a.second_background;
   options.seed = a.seed;
   options.num_threads = session.num_threads;
   options.check();
@@ -136,7 +150,10 @@ Command simulate_command() {
                    "--position-mm -1500 -300 1100 --out room",
                    "facula simulate data/scenes/turntable_object.toml --rig "
                    "data/rigs/ciclop_turntable.toml --from-deg 0 --to-deg 330 --step-deg 30 "
-                   "--background --out object"},
+                   "--background --out object",
+                   "facula simulate data/scenes/interference.toml --rig "
+                   "data/rigs/head_fs760.toml --conditions data/conditions/lit_room.toml "
+                   "--from-deg -10 --to-deg 10 --step-deg 10 --second-background --out lit"},
       .declare = [a](Arguments& arguments) { declare(arguments, *a); },
       .run = [a](Session& session) { run(*a, session); }};
 }
