@@ -40,6 +40,7 @@ StripeOptions read_stripe_options(TomlTable table, StripeDirection direction) {
   options.min_amplitude = table.number_if("min_amplitude").value_or(options.min_amplitude);
   options.max_width_ratio = table.number_if("max_width_ratio").value_or(options.max_width_ratio);
   options.min_run = table.integer_if("min_run").value_or(options.min_run);
+  options.median_rows = table.integer_if("median_rows").value_or(options.median_rows);
   options.region = read_region(table);
   table.finish();
   options.check();
@@ -55,8 +56,8 @@ void write_stripe_options(std::ostream& stream, const StripeOptions& options) {
       << to_string(options.channel) << "\"\nsigma_px = " << options.sigma
       << "\nmin_snr = " << options.min_snr << "\nmin_amplitude = " << options.min_amplitude
       << "\nmax_width_ratio = " << options.max_width_ratio << "\nmin_run = " << options.min_run
-      << "\nregion_px = [" << region.x << ", " << region.y << ", " << region.width << ", "
-      << region.height << "]\n";
+      << "\nmedian_rows = " << options.median_rows << "\nregion_px = [" << region.x << ", "
+      << region.y << ", " << region.width << ", " << region.height << "]\n";
   stream << out.str();
 }
 

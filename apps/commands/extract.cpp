@@ -24,6 +24,7 @@ struct ExtractArguments {
   bool resume = false;
   std::vector<std::filesystem::path> out;
   std::string detector;
+  bool median_of_three = false;
   std::string channel;
   std::optional<double> sigma;    ///< [px]
   std::optional<double> min_snr;  ///< [1]
@@ -41,8 +42,11 @@ void declare(Arguments& arguments, ExtractArguments& a) {
   arguments.input("--rig", a.rig, "a newer calibration, instead of what capture or log say");
   arguments.choice("--detector",
                    a.detector,
-                   {"fir", "centroid"},
+                   detector_names(),
                    "how the line is found, instead of what the capture says");
+  arguments.flag("--median-of-three",
+                 a.median_of_three,
+                 "make each position the median of three rows, against speckle");
   arguments.choice(
       "--channel",
       a.channel,
@@ -54,6 +58,7 @@ void declare(Arguments& arguments, ExtractArguments& a) {
 
 void apply_overrides(const ExtractArguments& a, StripeOptions& stripe) {
   if (!a.detector.empty()) stripe.detector = detector_from_name(a.detector);
+  if (a.median_of_three) stripe.median_rows = 3;
   if (!a.channel.empty()) stripe.channel = channel_from_name(a.channel);
   if (a.sigma) stripe.sigma = *a.sigma;
   if (a.min_snr) stripe.min_snr = *a.min_snr;
@@ -168,6 +173,7 @@ Command extract_command() {
                        "--position-mm -1500 -300 1100 --out room",
                        "facula extract room --out room.pcd --out room.ply",
                        "facula extract room --detector centroid --min-snr 8 --out centroid.pcd",
+                       "facula extract room --detector steger --median-of-three --out quiet.pcd",
                        "facula extract room --log room.flog --out logged.pcd",
                        "facula extract room --log room.flog --resume --out resumed.pcd",
                        "facula extract room.flog --rig room/rig.toml --out again.pcd"},
