@@ -76,7 +76,7 @@ bool CsvTable::has(std::string_view name) const {
   return std::find(names_.begin(), names_.end(), name) != names_.end();
 }
 
-std::vector<double> CsvTable::column(const std::vector<std::string>& names) const {
+std::size_t CsvTable::index_of(const std::vector<std::string>& names) const {
   const auto wanted =
       std::find_if(names.begin(), names.end(), [&](const std::string& n) { return has(n); });
   require(wanted != names.end(),
@@ -85,9 +85,13 @@ std::vector<double> CsvTable::column(const std::vector<std::string>& names) cons
           listed(names, " or "),
           ", got the columns ",
           listed(names_, ", "));
-  const auto index =
-      static_cast<std::size_t>(std::find(names_.begin(), names_.end(), *wanted) - names_.begin());
-  const double unit = unit_of(*wanted);
+  return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), *wanted) -
+                                  names_.begin());
+}
+
+std::vector<double> CsvTable::column(const std::vector<std::string>& names) const {
+  const std::size_t index = index_of(names);
+  const double unit = unit_of(names_[index]);
   std::vector<double> values;
   values.reserve(rows_.size());
   for (const Row& row : rows_) {
@@ -97,12 +101,20 @@ std::vector<double> CsvTable::column(const std::vector<std::string>& names) cons
             ", line ",
             row.line,
             ": expected a finite number in column ",
-            *wanted,
+            names_[index],
             ", got '",
             row.cells[index],
             "'");
     values.push_back(*value * unit);
   }
+  return values;
+}
+
+std::vector<std::string> CsvTable::texts(const std::string& name) const {
+  const std::size_t index = index_of({name});
+  std::vector<std::string> values;
+  values.reserve(rows_.size());
+  for (const Row& row : rows_) values.push_back(row.cells[index]);
   return values;
 }
 

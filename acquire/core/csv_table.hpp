@@ -26,7 +26,12 @@ class CsvTable {
   /// line of a cell that is no finite number.
   std::vector<double> column(const std::vector<std::string>& names) const;
 
+  /// A column as it stands. Throws Error when there is none of that name.
+  std::vector<std::string> texts(const std::string& name) const;
+
  private:
+  std::size_t index_of(const std::vector<std::string>& names) const;
+
   struct Row {
     std::size_t line = 0;
     std::vector<std::string> cells;
