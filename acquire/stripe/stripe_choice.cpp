@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/median.hpp>
+#include <facula/acquire/stripe/candidate_judgement.hpp>
+#include <facula/acquire/stripe/detector_table.hpp>
+#include <facula/acquire/stripe/line_kernels.hpp>
+#include <facula/acquire/stripe/locate.hpp>
+#include <facula/acquire/stripe/row_noise.hpp>
+#include <facula/acquire/stripe/stripe_choice.hpp>
+#include <facula/acquire/stripe/stripe_path.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace facula {
+namespace {
+
+/// A peak that passed every test of its own row.
+struct Choice {
+  RowPeak peak;
+  StripeCandidate candidate;
+};
+
+struct RowChoices {
+  std::vector<Choice> choices;  ///< strongest first
+  float row_noise = 0;          ///< [DN]
+};
+
+struct Span {
+  int begin = 0;
+  int end = 0;
+};
+
+/// Looks at single rows of one frame.
+class RowChooser {
+ public:
+  RowChooser(const StripeSignal& signal, const StripeView& view, const StripeOptions& options)
+      : signal_(signal),
+        view_(view),
+        options_(options),
+        kernels_(line_kernels(options.sigma)),
+        detector_(make_detector(options)),
+        noise_(estimate_noise(signal)) {}
+
+  float noise() const { return noise_; }
+  float curvature_norm() const { return kernels_.curvature_norm; }
+
+  RowChoices choices_of_row(int r) const {
+    RowChoices row;
+    const Span columns = columns_of(r);
+    const LocatedRow located = locate_in_row(
+        signal_.row(r), kernels_, columns.begin, columns.end, options_.max_candidates);
+    row.row_noise = located.row_noise;
+    for (const RowPeak& peak : located.peaks) {
+      auto found = detector_->measure(signal_, r, peak.column);
+      if (!found) continue;
+      found->row_noise = located.row_noise;
+      const bool kept = stands_out(*found, noise_, options_) && is_inside(*found, columns) &&
+                        !is_known(*found, row) && has_hue(*found, r);
+      if (kept) row.choices.push_back({peak, *found});
+    }
+    return row;
+  }
+
+ private:
+  /// The columns of a row that the region and the gate leave.
+  Span columns_of(int r) const {
+    const bool transposed = options_.direction == StripeDirection::kPerColumn;
+    const ImageRegion& region = options_.region;
+    const int first_row = transposed ? region.x : region.y;
+    const int rows = transposed ? region.width : region.height;
+    if (r < first_row || (rows > 0 && r >= first_row + rows)) return {};
+    const int begin = transposed ? region.y : region.x;
+    const int cols = transposed ? region.height : region.width;
+    Span span = {begin, cols > 0 ? std::min(begin + cols, signal_.cols()) : signal_.cols()};
+    if (view_.gate == nullptr || view_.gate->empty()) return span;
+    const auto i = static_cast<std::size_t>(r);
+    return {std::max(span.begin, static_cast<int>(view_.gate->first[i])),
+            std::min(span.end, static_cast<int>(view_.gate->end[i]))};
+  }
+
+  static bool is_inside(const StripeCandidate& found, const Span& columns) {
+    return found.position >= static_cast<float>(columns.begin) - 0.5F &&
+           found.position <= static_cast<float>(columns.end) - 0.5F;
+  }
+
+  /// The flank of a strong line may be a peak of its own that leads to the same place.
+  bool is_known(const StripeCandidate& found, const RowChoices& row) const {
+    return std::any_of(row.choices.begin(), row.choices.end(), [&](const Choice& other) {
+      return std::abs(static_cast<double>(other.candidate.position - found.position)) <
+             options_.sigma;
+    });
+  }
+
+  bool has_hue(const StripeCandidate& found, int r) const {
+    const bool transposed = options_.direction == StripeDirection::kPerColumn;
+    const StripePlace place = {r, found.position, found.width, transposed};
+    return hue_share(view_.frame, view_.background, place, options_.hue) >= options_.min_hue_share;
+  }
+
+  const StripeSignal& signal_;
+  const StripeView& view_;
+  const StripeOptions& options_;
+  LineKernels kernels_;
+  std::unique_ptr<RowDetector> detector_;
+  float noise_;
+};
+
+/// The usual width of the strongest candidates [px]; the expected one where there are too few.
+double usual_width(const std::vector<RowChoices>& rows, const StripeOptions& options) {
+  std::vector<float> widths;
+  for (const RowChoices& row : rows) {
+    if (!row.choices.empty()) widths.push_back(row.choices.front().candidate.width);
+  }
+  if (widths.size() < 16) return options.sigma;
+  return std::max(0.5, static_cast<double>(median(widths)));
+}
+
+/// What a candidate is worth to a path: 0.5 for one that just stands out, up to 2 for one 8 times
+/// as strong, less where its width is not the usual one (a factor of 2 costs 0.5).
+double gain_of(const StripeCandidate& found,
+               double frame_noise,
+               double width,
+               const StripeOptions& options) {
+  const double noise = static_cast<double>(noise_about(found, static_cast<float>(frame_noise)));
+  const double strength =
+      std::log2(static_cast<double>(found.snr_per_noise) / (noise * options.min_snr));
+  const double misfit = std::log2(std::max(0.5, static_cast<double>(found.width)) / width);
+  return 0.5 + 0.5 * std::clamp(strength, 0.0, 3.0) - 0.5 * std::min(1.0, misfit * misfit);
+}
+
+std::vector<int> path_through(const std::vector<RowChoices>& rows,
+                              double noise,
+                              const StripeOptions& options) {
+  const double width = usual_width(rows, options);
+  std::vector<std::vector<PathPlace>> places(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (const Choice& choice : rows[r].choices) {
+      places[r].push_back({static_cast<double>(choice.candidate.position),
+                           gain_of(choice.candidate, noise, width, options)});
+    }
+  }
+  return best_path(places, {.step = options.sigma + 1});
+}
+
+}  // namespace
+
+bool needs_choice(const StripeView& view, const StripeOptions& options) {
+  return options.max_candidates > 1 || options.hue != LaserHue::kAny ||
+         (view.gate != nullptr && !view.gate->empty());
+}
+
+StripeLocation choose_stripe(const StripeSignal& signal,
+                             const StripeView& view,
+                             const StripeOptions& options) {
+  const auto count = static_cast<std::size_t>(signal.rows());
+  require(view.gate == nullptr || view.gate->empty() ||
+              (view.gate->first.size() == count && view.gate->end.size() == count),
+          "expected a gate with one span per row");
+  const RowChooser chooser(signal, view, options);
+  std::vector<RowChoices> rows(count);
+  for (std::size_t r = 0; r < count; ++r) rows[r] = chooser.choices_of_row(static_cast<int>(r));
+  const std::vector<int> path = path_through(rows, static_cast<double>(chooser.noise()), options);
+
+  StripeLocation location = StripeLocation::none(count);
+  location.noise = chooser.noise();
+  for (std::size_t r = 0; r < count; ++r) {
+    location.row_noise[r] = rows[r].row_noise;
+    if (path[r] < 0) continue;
+    const RowPeak& peak = rows[r].choices[static_cast<std::size_t>(path[r])].peak;
+    location.peak[r] = peak.column;
+    location.peak_per_noise[r] = peak.response / chooser.curvature_norm();
+  }
+  return location;
+}
+
+}  // namespace facula
