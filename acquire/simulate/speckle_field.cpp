@@ -45,16 +45,20 @@ double smoothing_for(double correlation) {
   return 0.5 * (low + high);
 }
 
-// Noise of variance 1/2, smoothed, and brought back to that variance.
+// Noise of variance 1/2, smoothed, and brought back to that variance. It is made with a margin: at
+// its border a blur averages less.
 Image<double> smooth_noise(int rows, int cols, double smoothing, Random& random) {
-  Image<double> noise(rows, cols);
+  const int margin = static_cast<int>(std::ceil(4 * smoothing));
+  Image<double> noise(rows + 2 * margin, cols + 2 * margin);
   const double per_direction = blur_weights(std::sqrt(2.0) * smoothing)[0];
   const double scale = std::sqrt(0.5) / per_direction;
   for (double& value : noise.pixels) value = scale * random.normal();
   Lens lens;
   lens.blur = smoothing;
   spread_light(noise, lens);
-  return noise;
+  Image<double> inner(rows, cols);
+  for (int r = 0; r < rows; ++r) std::copy_n(noise.row(r + margin) + margin, cols, inner.row(r));
+  return inner;
 }
 
 }  // namespace
