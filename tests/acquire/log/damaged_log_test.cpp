@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/random.hpp>
 #include <facula/acquire/core/whole_file.hpp>
 #include <facula/tests/acquire/log/logged_wall.hpp>
