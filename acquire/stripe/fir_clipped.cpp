@@ -9,7 +9,8 @@ namespace facula {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kKnownHalf = 0.45;  // exp(-2 (2 pi 0.1)^2): what cos(4 pi h) keeps for h to 0.1 px
+// What cos(4 pi h) keeps for h to 0.05 px: exp(-2 (2 pi 0.05)^2).
+constexpr double kKnownHalf = 0.82;
 
 /// The clip's edge on one side of the line's middle, and the slope there.
 struct Edge {
@@ -50,7 +51,8 @@ void judge_clipped(const SignalRow& row, float sigma, float bend, StripeCandidat
   const double kink = 0.5 * (left.slope + right.slope);
   const double most = kink * kernel / (kPi * kPi * static_cast<double>(bend));
   const double turned = 0.5 * (1 - kKnownHalf * std::cos(4 * kPi * half));  // sin^2(2 pi h)
-  found.sigma_step = static_cast<float>(most * std::sqrt(0.5 * turned));
+  const auto step = static_cast<float>(most * std::sqrt(0.5 * turned));
+  found.sigma_step = std::hypot(found.sigma_step, step);
 }
 
 }  // namespace facula

@@ -15,7 +15,7 @@ namespace facula {
 /// which moves the crossing by that over D. h and K follow from the flanks, taken as a Gaussian's:
 /// with heights v0 and v1 at x0 and x1, w^2 = (x1^2 - x0^2) / (2 ln(v0 / v1)), h^2 = x0^2 - 2 w^2
 /// ln(C / v0) and K = C h / w^2, C the clipped height. The RMS over m is sigma_step, with h known
-/// to a tenth of a pixel.
+/// to a twentieth of a pixel.
 ///
 /// Noise: clipped pixels have none. The derivative's square x^2 exp(-x^2 / s^2) has the share
 /// erfc(z) + 2 z exp(-z^2) / sqrt(pi) beyond h, z = h / s.

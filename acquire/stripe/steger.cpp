@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/stripe/fir_clipped.hpp>
 #include <facula/acquire/stripe/line_kernels.hpp>
 #include <facula/acquire/stripe/peak_shape.hpp>
 #include <facula/acquire/stripe/steger.hpp>
@@ -61,7 +62,7 @@ class Steger : public RowDetector {
       const auto ridge = ridge_at(columns, c);
       if (!ridge) return std::nullopt;
       if (std::abs(ridge->beside) <= 0.5 + kPlay) {
-        fill(*ridge, c, *found);
+        fill(row, *ridge, c, *found);
         return row.holds(c) ? found : std::nullopt;
       }
       c += static_cast<int>(std::lround(std::clamp(ridge->beside, -2.0, 2.0)));
@@ -112,7 +113,8 @@ class Steger : public RowDetector {
     return Ridge{(gx * nx + gy * ny) / bend / nx, bend, std::abs(nx)};
   }
 
-  void fill(const Ridge& ridge, int c, StripeCandidate& found) const {
+  void fill(const SignalRow& row, const Ridge& ridge, int c, StripeCandidate& found) const {
+    const auto bend = static_cast<float>(ridge.bend * ridge.lean * ridge.lean);  // along the row
     const double quiet = norm(kernels_.smooth);
     found.position = static_cast<float>(c + ridge.beside);
     found.sigma_per_noise = static_cast<float>(static_cast<double>(kernels_.slope_norm) * quiet /
@@ -122,6 +124,7 @@ class Steger : public RowDetector {
     const double w = std::max(0.5, static_cast<double>(found.width));
     found.position_share = static_cast<float>(std::pow(1 + sigma_ * sigma_ / (2 * w * w), -1.5));
     found.sigma_step = static_cast<float>(1 / (8 * std::sqrt(7.0) * (w * w + sigma_ * sigma_)));
+    if (found.saturated) judge_clipped(row, static_cast<float>(sigma_), bend, found);
   }
 
   double sigma_;

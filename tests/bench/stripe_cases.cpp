@@ -43,12 +43,19 @@ void add(const std::string& what, const LineImage& line, std::vector<PrecisionCa
   cases.push_back({label(line) + ", " + what, "special", line, {}});
 }
 
-/// A line that leans by `lean` px per row, turning back every 40 px.
+constexpr double kTurn = 40;  // px after which a leaning line turns back
+constexpr int kClear = 10;    // rows on both sides of a turn that do not count
+
+int rows_to_turn(double lean) {
+  return static_cast<int>(std::lround(kTurn / lean));
+}
+
+/// A line that leans by `lean` px per row and turns back every 40 px.
 LineImage leaning(LineImage line, double lean) {
-  const int turn = static_cast<int>(std::lround(40 / lean));
+  const int turn = rows_to_turn(lean);
   line.position = [lean, turn](int r) {
     const int at = r % (2 * turn);
-    return 0.5 * kCols - 20 + kLean * 0.1 * (r - 0.5 * kRows) +
+    return 0.5 * kCols - 0.5 * kTurn + kLean * 0.1 * (r - 0.5 * kRows) +
            lean * (at < turn ? at : 2 * turn - at);
   };
   return line;
@@ -93,12 +100,15 @@ std::vector<PrecisionCase> precision_cases() {
     }
   }
   for (const double lean : {0.1, 0.5, 1.0}) {
+    const int turn = rows_to_turn(lean);
     add("leaning " + number(lean) + " px/row", leaning(line_of(2, 200, 2), lean), cases);
+    cases.back().counts = [turn](int r) { return r % turn >= kClear && r % turn < turn - kClear; };
   }
   for (const double slope : {0.2, 1.0}) {
     LineImage line = line_of(2, 200, 2);
     line.slope = slope;
-    line.amplitude = 140;  // not to clip at the bright end
+    line.cols = 60;  // narrow, not to clip at the bright end
+    line.position = [](int r) { return 30 + kLean * (r - 0.5 * kRows); };
     add("ramp of " + number(slope) + " DN/px", line, cases);
   }
   for (const double sigma : {1.0, 2.0, 4.0}) {
