@@ -13,19 +13,17 @@ bool same_place(const StripeOptions& a, const StripeOptions& b) {
 
 }  // namespace
 
-LoggedView log_view(ImageView8 frame,
-                    ImageView8 background,
-                    const StripeOptions& options,
-                    int width) {
+LoggedView log_view(const StripeView& images, const StripeOptions& options, int width) {
   options.check();
-  require(!frame.empty(), "expected a frame with pixels, got an empty one");
+  require(!images.frame.empty(), "expected a frame with pixels, got an empty one");
   const bool transpose = options.direction == StripeDirection::kPerColumn;
-  const StripeSignal signal(frame, background, options.channel, transpose);
+  const StripeSignal signal(images.frame, images.background, options.channel, transpose);
   LoggedView view;
-  view.location = locate_stripe(signal, options);
+  view.location = needs_choice(images, options) ? choose_stripe(signal, images, options)
+                                                : locate_stripe(signal, options);
   const StripeProfile profile = measure_stripe(signal, view.location, options);
   const WindowPlaces places = place_windows(profile, signal.cols(), width);
-  view.windows = cut_windows(frame, background, places, transpose);
+  view.windows = cut_windows(images.frame, images.background, places, transpose);
   for (std::size_t r = 0; r < places.begin.size(); ++r) {
     const int begin = places.begin[r];
     const int peak = view.location.peak[r];

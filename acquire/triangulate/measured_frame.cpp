@@ -63,9 +63,9 @@ LoggedFrame log_frame(const Capture& capture,
                       int width) {
   const FrameImages images = read_images(capture, frames, i);
   LoggedFrame frame{.index = i, .position = capture.positions[i], .time = time_of(capture, i)};
-  frame.views.push_back(log_view(images.lit.view(), images.dark.view(), capture.stripe, width));
+  frame.views.push_back(log_view({images.lit.view(), images.dark.view()}, capture.stripe, width));
   if (capture.zero_line) {
-    frame.views.push_back(log_view(images.bed.view(), {}, capture.stripe, width));
+    frame.views.push_back(log_view({images.bed.view(), {}}, capture.stripe, width));
   }
   return frame;
 }
