@@ -194,10 +194,13 @@ class JointProblem {
   void solve() {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_SCHUR;
-    options.max_num_iterations = 100;
-    options.function_tolerance = 1e-12;
-    options.parameter_tolerance = 1e-11;
+    // A robust fit only has to show which observations are wrong.
+    const bool rough = freedom_.robust_scale > 0;
+    options.max_num_iterations = rough ? 30 : 100;
+    options.function_tolerance = rough ? 1e-4 : 1e-9;
+    options.parameter_tolerance = rough ? 1e-6 : 1e-10;
     options.gradient_tolerance = 1e-14;
+    options.initial_trust_region_radius = 1e7;  // the start is good: nearly Gauss-Newton
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;

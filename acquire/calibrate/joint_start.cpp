@@ -84,6 +84,27 @@ void check_set(const CalibrationSet& set) {
   require(!set.views.empty(), "expected a calibration set with views, got none");
 }
 
+constexpr std::size_t kStartViews = 10;  // enough to start from; the joint fit takes all
+
+/// Evenly chosen entries, at most kStartViews.
+template <typename T>
+std::vector<T> a_few_of(const std::vector<T>& all) {
+  if (all.size() <= kStartViews) return all;
+  std::vector<T> few;
+  for (std::size_t k = 0; k < kStartViews; ++k) few.push_back(all[k * all.size() / kStartViews]);
+  return few;
+}
+
+/// Runs `calibrate` on a few of the entries, on all where those do not suffice.
+template <typename T, typename Calibrate>
+auto from_a_few(const std::vector<T>& all, const Calibrate& calibrate) {
+  try {
+    return calibrate(a_few_of(all));
+  } catch (const Error&) {
+    return calibrate(all);
+  }
+}
+
 /// Intrinsics from the views of the board that is seen most often.
 Camera start_camera(const CalibrationSet& set, const JointOptions& options) {
   if (options.camera) {
@@ -102,7 +123,9 @@ Camera start_camera(const CalibrationSet& set, const JointOptions& options) {
   CameraCalibrationOptions camera_options;
   camera_options.tangential = options.tangential;
   camera_options.radial_terms = options.radial_terms;
-  return calibrate_camera(set.boards[most], views, camera_options).camera;
+  return from_a_few(views, [&](const std::vector<BoardView>& some) {
+    return calibrate_camera(set.boards[most], some, camera_options).camera;
+  });
 }
 
 JointSight sight_of(const CalibrationSet& set, std::size_t v) {
@@ -185,18 +208,22 @@ void start_lasers(const CalibrationSet& set,
                   const std::vector<RigidTransform>& poses,
                   JointStart& start) {
   std::vector<BoardPose> board_poses;
-  std::vector<LaserLineView> lines;
-  for (std::size_t i = 0; i < start.sights.size(); ++i) {
-    board_poses.push_back({poses[i], Eigen::Matrix3d::Zero()});
-    for (LaserLineView line : set.views[start.sights[i].view].lines) {
-      if (line.pixels.empty()) continue;
-      line.view = i;
-      lines.push_back(std::move(line));
-    }
+  for (const RigidTransform& pose : poses) {
+    board_poses.push_back({pose, Eigen::Matrix3d::Zero()});
   }
   for (std::size_t l = 0; l < set.lasers.size(); ++l) {
+    std::vector<LaserLineView> lines;
+    for (std::size_t i = 0; i < start.sights.size(); ++i) {
+      for (LaserLineView line : set.views[start.sights[i].view].lines) {
+        if (line.pixels.empty() || line.laser != l) continue;
+        line.view = i;
+        lines.push_back(std::move(line));
+      }
+    }
     try {
-      LaserPlane plane = calibrate_laser(start.state.rig.camera, board_poses, lines, l).plane;
+      LaserPlane plane = from_a_few(lines, [&](const std::vector<LaserLineView>& some) {
+        return calibrate_laser(start.state.rig.camera, board_poses, some, l).plane;
+      });
       plane.name = set.lasers[l];
       start.state.rig.lasers.push_back(std::move(plane));
     } catch (const Error& error) {

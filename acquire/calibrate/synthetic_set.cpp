@@ -10,8 +10,8 @@
 namespace facula {
 namespace {
 
-constexpr double kSpacingShare = 0.066;  // a board of 9 x 6 then fills most of a usual image
-constexpr int kTries = 2000;             // for a board that is seen whole
+constexpr double kWidthShare = 0.53;  // of the distance: the board then fills most of an image
+constexpr int kTries = 2000;          // for a board that is seen
 
 double between(Random& random, double low, double high) {
   return low + (high - low) * random.uniform();
@@ -47,12 +47,13 @@ RigidTransform leaning_board(const Board& board,
                              double tilt,
                              Random& random) {
   const double heading = between(random, 0, 2 * std::numbers::pi);
-  const double angle = tilt * std::sqrt(random.uniform());
+  const double angle = tilt * between(random, 0.5, 1);
   const Eigen::Vector3d axis(std::cos(heading), std::sin(heading), 0);
   RigidTransform pose;
   pose.rotation = Eigen::AngleAxisd(angle, axis) *
-                  Eigen::AngleAxisd(between(random, -0.4, 0.4), Eigen::Vector3d::UnitZ());
-  const double reach = 2 * board.spacing;
+                  Eigen::AngleAxisd(between(random, -std::numbers::pi, std::numbers::pi),
+                                    Eigen::Vector3d::UnitZ());
+  const double reach = 0.25 * board.spacing * board.cols;
   const Eigen::Vector3d off(between(random, -reach, reach), between(random, -reach, reach), 0);
   pose.translation = centre - pose.rotation * (board_centre(board) + off);
   return pose;
@@ -111,7 +112,7 @@ LaserLineView line_on_board(Scene& scene, const Board& board, const RigidTransfo
   return line;
 }
 
-/// The view of a board at a pose; none unless the whole board is seen. `size` is the board's true
+/// The view of a board at a pose; none unless half of the board is seen. `size` is the board's true
 /// size over what it is said to be.
 std::optional<JointView> view_of(Scene& scene,
                                  const Board& board,
@@ -122,10 +123,11 @@ std::optional<JointView> view_of(Scene& scene,
   view.points.image_height = scene.rig.camera.height;
   for (int id = 0; id < static_cast<int>(board.size()); ++id) {
     const auto pixel = seen_at(scene.rig.camera, pose * (size * board.point(id)));
-    if (!pixel) return std::nullopt;
+    if (!pixel) continue;
     view.points.ids.push_back(id);
     view.points.pixels.push_back(*pixel);
   }
+  if (2 * view.points.ids.size() < board.size()) return std::nullopt;
   for (Eigen::Vector2d& pixel : view.points.pixels) {
     for (int k = 0; k < 2; ++k) pixel[k] += scene.options.point_noise * scene.random.normal();
     if (scene.random.uniform() < scene.options.wrong_share) {
@@ -145,10 +147,10 @@ void add_hand_views(Scene& scene, CalibrationSet& set) {
     for (int attempt = 0; attempt < kTries && !view; ++attempt) {
       const auto centre = random_centre(scene, static_cast<std::size_t>(v));
       if (!centre) continue;
-      const RigidTransform pose = leaning_board(set.boards[0], *centre, 0.7, scene.random);
+      const RigidTransform pose = leaning_board(set.boards[0], *centre, 0.9, scene.random);
       view = view_of(scene, set.boards[0], pose, 1);
     }
-    require(view.has_value(), "no board of this size is seen whole by the rig; change --distance");
+    require(view.has_value(), "no board of this size is seen by the rig; change --distance");
     view->points.name = "hand " + std::to_string(v + 1);
     set.views.push_back(std::move(*view));
   }
@@ -214,6 +216,11 @@ void SyntheticSetOptions::check() const {
   require(line_points >= 10 && line_points <= 10000,
           "line_points: expected 10 to 10000, got ",
           line_points);
+  require(board_cols >= 3 && board_rows >= 3 && board_cols <= 100 && board_rows <= 100,
+          "board_cols and board_rows: expected 3 to 100, got ",
+          board_cols,
+          " and ",
+          board_rows);
   require(span > 0 && std::isfinite(span), "span: expected above 0, got ", span);
 }
 
@@ -222,7 +229,9 @@ CalibrationSet synthesize_calibration_set(const Rig& rig, const SyntheticSetOpti
   rig.check();
   CalibrationSet set;
   Board board;
-  board.spacing = kSpacingShare * options.distance;
+  board.cols = options.board_cols;
+  board.rows = options.board_rows;
+  board.spacing = kWidthShare * options.distance / (options.board_cols - 1);
   set.boards.assign(static_cast<std::size_t>(options.boards), board);
   for (const LaserPlane& laser : rig.lasers) set.lasers.push_back(laser.name);
   set.axis = rig.axis.kind;

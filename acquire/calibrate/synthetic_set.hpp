@@ -17,6 +17,8 @@ struct SyntheticSetOptions {
   double point_noise = 0.1;  ///< of a board point along x and y, standard deviation [px]
   double line_noise = 0.1;   ///< of a line pixel along the row or column [px]
   int line_points = 60;      ///< per line and view [1]
+  int board_cols = 9;        ///< points in a row [1]
+  int board_rows = 6;        ///< [1]
   int boards = 1;            ///< 2: the placements show the second board [1]
   double second_scale = 1;   ///< true size of the second board over what the set says [1]
   double wrong_share = 0;    ///< of the board points moved by up to 20 px [0..1]
