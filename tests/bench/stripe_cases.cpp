@@ -40,7 +40,7 @@ std::string label(const LineImage& line) {
 }
 
 void add(const std::string& what, const LineImage& line, std::vector<PrecisionCase>& cases) {
-  cases.push_back({label(line) + ", " + what, "special", line, {}});
+  cases.push_back({label(line) + ", " + what, "special", line, {}, 0});
 }
 
 constexpr double kTurn = 40;  // px after which a leaning line turns back
@@ -84,7 +84,7 @@ bool near_step(int r) {
 }
 
 void add_step(const std::string& what, const LineImage& line, std::vector<PrecisionCase>& cases) {
-  cases.push_back({label(line) + ", " + what, "special", line, near_step});
+  cases.push_back({label(line) + ", " + what, "special", line, near_step, 0});
 }
 
 }  // namespace
@@ -95,9 +95,13 @@ std::vector<PrecisionCase> precision_cases() {
     for (const double amplitude : {40.0, 60.0, 100.0, 200.0, 800.0}) {
       for (const double noise : {1.0, 2.0, 4.0}) {
         const LineImage line = line_of(sigma, amplitude, noise);
-        cases.push_back({label(line), "grid", line, {}});
+        cases.push_back({label(line), "grid", line, {}, 0});
       }
     }
+  }
+  for (const double sigma : {0.7, 1.0, 1.4, 2.8, 4.0}) {
+    add("2 px expected", line_of(sigma, 200, 2), cases);
+    cases.back().expected = 2;
   }
   for (const double lean : {0.1, 0.5, 1.0}) {
     const int turn = rows_to_turn(lean);
@@ -134,7 +138,7 @@ PrecisionResult measure_case(const PrecisionCase& which, int trials) {
     for (std::size_t d = 0; d < names.size(); ++d) {
       StripeOptions options;
       options.detector = detector_from_name(names[d]);
-      options.sigma = line.sigma;
+      options.sigma = which.expected > 0 ? which.expected : line.sigma;
       add_errors(line, detect_stripe(image.view(), {}, options), which.counts, result.errors[d]);
     }
   }

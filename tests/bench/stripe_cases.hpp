@@ -15,10 +15,11 @@ struct PrecisionCase {
   std::string table;                ///< "grid" or "special"
   LineImage line;                   ///< drawn in images of 1000 rows, each with its own seed
   std::function<bool(int)> counts;  ///< rows that count, all where empty
+  double expected = 0;              ///< width the detectors are told, 0 = the line's own [px]
 };
 
 /// Widths 1, 2, 4 px, heights 40, 60, 100, 200 and 800 (clipped) DN, noise 1, 2, 4 DN; then lines
-/// that lean, ambient ramps, photon noise and depth steps.
+/// of another width than expected, lines that lean, ambient ramps, photon noise and depth steps.
 std::vector<PrecisionCase> precision_cases();
 
 struct PrecisionResult {
