@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/stripe/fir_clipped.hpp>
+#include <facula/acquire/stripe/fir_shape.hpp>
 #include <facula/acquire/stripe/fir_zero_crossing.hpp>
-#include <facula/acquire/stripe/line_kernels.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace facula {
@@ -12,124 +12,155 @@ namespace {
 
 class FirZeroCrossing : public RowDetector {
  public:
-  explicit FirZeroCrossing(double sigma)
-      : sigma_(static_cast<float>(sigma)), kernels_(line_kernels(sigma)) {}
+  explicit FirZeroCrossing(double sigma) : shape_(fir_shape(sigma)) {}
 
   std::optional<StripeCandidate> measure(const StripeSignal& signal,
                                          int r,
                                          int peak) const override {
     const SignalRow row = signal.row(r);
-    const std::optional<float> position = zero_crossing(row, peak);
-    if (!position) return std::nullopt;
-    return describe(row, *position);
+    const std::optional<Crossing> crossing = find_crossing(row, peak);
+    if (!crossing) return std::nullopt;
+    return describe(row, peak, *crossing);
   }
 
  private:
-  /// The downward zero of the smoothed derivative nearest to `peak`, linear between two pixels.
-  std::optional<float> zero_crossing(const SignalRow& row, int peak) const {
-    const int reach = std::max(2, static_cast<int>(std::lround(1.5F * sigma_)));
-    std::optional<float> nearest;
-    const int first = std::max(row.begin, peak - reach);
-    const int last = std::min(row.end - 1, peak + reach);
-    float left = filtered(kernels_.slope, row, first);
-    for (int c = first; c < last; ++c) {
-      const float right = filtered(kernels_.slope, row, c + 1);
-      if (left > 0 && right <= 0) {
-        const float zero = static_cast<float>(c) + left / (left - right);
-        if (!nearest || std::abs(zero - static_cast<float>(peak)) <
-                            std::abs(*nearest - static_cast<float>(peak))) {
-          nearest = zero;
-        }
+  /// Where the slope goes from above 0 to 0 or below, between two neighbouring columns.
+  struct Crossing {
+    float left = 0;   ///< column of the left one less the peak [px]
+    float share = 0;  ///< of the way to the right one, along a straight slope [1]
+  };
+
+  /// The one nearest to the peak, up to two columns off.
+  std::optional<Crossing> find_crossing(const SignalRow& row, int peak) const {
+    std::int32_t slope[5];
+    for (int i = 0; i < 5; ++i) slope[i] = weighed(shape_.kernels.slope, row, peak + i - 2);
+    for (const int i : {1, 2, 0, 3}) {
+      if (slope[i] > 0 && slope[i + 1] <= 0) {
+        const auto left = static_cast<float>(slope[i]);
+        return Crossing{static_cast<float>(i - 2),
+                        left / (left - static_cast<float>(slope[i + 1]))};
       }
-      left = right;
     }
-    return nearest;
+    return std::nullopt;
   }
 
-  /// Amplitude, width, uncertainty and misfit at the position found. With P the smoothed height and
-  /// L the smoothed bend of a Gaussian line of width w, d beside its middle, and v = w^2 + sigma^2:
-  /// P = P0 exp(-d^2 / 2v) and P / L = v / (1 - d^2 / v).
-  std::optional<StripeCandidate> describe(const SignalRow& row, float position) const {
-    const int c = static_cast<int>(std::lround(position));
-    const float bend = filtered(kernels_.curvature, row, c);
+  /// Amplitude, width, uncertainty and misfit. With P the smoothed height and L the smoothed bend
+  /// of a Gaussian line of width w, d beside its middle, and v = w^2 + sigma^2:
+  /// P = P0 exp(-d^2 / 2v) and P / L = v / (1 - d^2 / v). The slope goes as x (1 - x^2 / 2v), so
+  /// that a straight line through two neighbours crosses zero t (1 - t) (1 - 2t) / 2v too far.
+  /// Every operation is written out in the order in which fir_simd.cpp does it for many rows.
+  std::optional<StripeCandidate> describe(const SignalRow& row, int peak, Crossing crossing) const {
+    const FirShape& s = shape_;
+    const float level =
+        static_cast<float>(sum_beside(row, peak)) * s.per_background_pixel;
+    const float height = static_cast<float>(weighed(s.kernels.smooth, row, peak)) * s.smooth_unit -
+                         level;
+    const float bend = static_cast<float>(weighed(s.kernels.curvature, row, peak)) * s.bend_unit;
     if (!(bend > 0)) return std::nullopt;
-    StripeCandidate found;
-    found.position = position;
-    found.background = surroundings(row, c);
-    const float beside = filtered(kernels_.smooth, row, c) - found.background;
-    const float ratio = beside / bend;
-    const float d2 = (position - static_cast<float>(c)) * (position - static_cast<float>(c));
-    const float variance =
-        0.5F * (ratio + std::sqrt(std::max(0.0F, ratio * ratio - 4 * ratio * d2)));
+    const float t = crossing.share;
+    const float d0 = crossing.left + t;
+    const float ratio = height / bend;
+    const float root = std::sqrt(std::max(0.0F, ratio * ratio - 4 * ratio * (d0 * d0)));
+    const float variance = 0.5F * (ratio + root);
     if (!(variance > 0)) return std::nullopt;
-    const float height = beside * std::exp(0.5F * d2 / variance);
-    const float top_bend = height / variance;
-    found.width = std::sqrt(std::max(0.0F, variance - sigma_ * sigma_));
-    found.amplitude = found.width > 0 ? height * std::sqrt(variance) / found.width : 0;
-    found.snr_per_noise = top_bend / kernels_.curvature_norm;
-    found.sigma_per_noise = kernels_.slope_norm / top_bend;
-    found.position_share = position_share(found.width);
-    found.saturated = row.is_clipped(c);
-    measure_misfit(row, found);
+    const float inverse = 1 / variance;
+    const float d = d0 - 0.5F * inverse * (t * (1 - t) * (1 - 2 * t));
+    const float top = height * exp_near_zero(0.5F * (d * d) * inverse);
+    const float top_bend = top * inverse;
+    const float width2 = std::max(0.0F, variance - s.sigma2);
+    const float per_height = std::sqrt(variance / width2);
+    StripeCandidate found;
+    found.position = static_cast<float>(peak) + d;
+    found.background = level;
+    found.width = std::sqrt(width2);
+    found.amplitude = width2 > 0 ? top * per_height : 0;
+    found.snr_per_noise = top_bend * s.per_bend_noise;
+    found.sigma_per_noise = s.slope_noise / top_bend;
+    // The filter's slope squared goes as x^2 exp(-x^2 / sigma^2), the line as exp(-x^2 / 2 w^2):
+    // the integral of their product over the first's is (1 + sigma^2 / 2 w^2)^(-3/2).
+    const float per_width2 = 1 / std::max(s.least_width2, width2);
+    const float spread = 1 + 0.5F * s.sigma2 * per_width2;
+    found.position_share = 1 / (spread * std::sqrt(spread));
+    found.saturated = row.is_clipped(static_cast<int>(found.position + 0.5F));
+    measure_misfit(row, peak, d, 0.5F * per_width2, found);
+    if (found.saturated) judge_clipped(row, s.sigma, top_bend, found);
     return found;
   }
 
-  /// Mean level beside the stripe, 4 to 6 widths off on both sides.
-  float surroundings(const SignalRow& row, int c) const {
-    const int near = static_cast<int>(std::ceil(4 * sigma_));
-    const int far = static_cast<int>(std::ceil(6 * sigma_));
-    float sum = 0;
-    int count = 0;
-    for (int d = near; d <= far; ++d) {
-      if (row.holds(c - d)) sum += static_cast<float>(row.at(c - d)), ++count;
-      if (row.holds(c + d)) sum += static_cast<float>(row.at(c + d)), ++count;
+  std::int32_t sum_beside(const SignalRow& row, int peak) const {
+    std::int32_t sum = 0;
+    for (int i = shape_.background_from; i <= shape_.background_to; ++i) {
+      sum += row.at(peak - i) + row.at(peak + i);
     }
-    return count > 0 ? sum / static_cast<float>(count) : 0;
+    return sum;
   }
 
-  /// The filter's slope squared goes as x^2 exp(-x^2 / sigma^2), the line as exp(-x^2 / 2 w^2): the
-  /// integral of their product over that of the first is (1 + sigma^2 / 2 w^2)^(-3/2).
-  float position_share(float width) const {
-    const float w = std::max(0.5F, width);
-    return std::pow(1 + sigma_ * sigma_ / (2 * w * w), -1.5F);
-  }
-
-  /// Mean square that a Gaussian of the found position and width leaves over +-3 widths, its height
-  /// and level fitted by least squares; four parameters taken off.
-  static void measure_misfit(const SignalRow& row, StripeCandidate& found) {
-    const float width = std::clamp(found.width, 0.5F, static_cast<float>(row.end));
-    const int first = std::max(row.begin, static_cast<int>(std::ceil(found.position - 3 * width)));
-    const int last =
-        std::min(row.end - 1, static_cast<int>(std::floor(found.position + 3 * width)));
-    const int count = last - first + 1;
-    if (count <= 4) return;
-    double g1 = 0;
-    double g2 = 0;
-    double s1 = 0;
-    double s2 = 0;
-    double gs = 0;
-    for (int c = first; c <= last; ++c) {
-      const double z = static_cast<double>((static_cast<float>(c) - found.position) / width);
-      const double g = std::exp(-0.5 * z * z);
-      const double s = static_cast<double>(row.at(c));
-      g1 += g;
-      g2 += g * g;
-      s1 += s;
-      s2 += s * s;
-      gs += g * s;
+  /// Mean square that a Gaussian of the found position and width leaves over +-3 sigma about the
+  /// peak, its height and level fitted by least squares; four parameters taken off. `q` is half
+  /// over the square of the width. A Gaussian at equal steps: each value is the one before times a
+  /// factor that itself changes by a constant factor.
+  void measure_misfit(
+      const SignalRow& row, int peak, float d, float q, StripeCandidate& found) const {
+    const int reach = shape_.misfit_reach;
+    const float change = exp_near_zero(-2 * q);
+    const float middle = exp_near_zero(-(d * d) * q);
+    float sum_g = middle;
+    float sum_gg = middle * middle;
+    float sum_gs = middle * static_cast<float>(row.at(peak));
+    for (const int side : {1, -1}) {
+      float g = middle;
+      float factor = exp_near_zero(-q * (1 - static_cast<float>(side) * 2 * d));
+      for (int i = 1; i <= reach; ++i) {
+        g = g * factor;
+        factor = factor * change;
+        sum_g = sum_g + g;
+        sum_gg = sum_gg + g * g;
+        sum_gs = sum_gs + g * static_cast<float>(row.at(peak + side * i));
+      }
     }
-    const double spread = g2 - g1 * g1 / count;
-    const double covariance = gs - g1 * s1 / count;
-    const double left = s2 - s1 * s1 / count - covariance * covariance / spread;
-    found.residual = static_cast<float>(std::max(0.0, left) / (count - 4));
-    found.residual_share = static_cast<float>(g1 / count);
+    std::int32_t sum = 0;
+    std::int32_t squares = 0;
+    for (int i = -reach; i <= reach; ++i) {
+      sum += row.at(peak + i);
+      squares += row.at(peak + i) * row.at(peak + i);
+    }
+    const float per_pixel = shape_.per_misfit_pixel;
+    const auto s1 = static_cast<float>(sum);
+    const float spread = sum_gg - sum_g * sum_g * per_pixel;
+    const float together = sum_gs - sum_g * s1 * per_pixel;
+    // In whole numbers: the difference of two large ones.
+    const float scatter =
+        static_cast<float>(squares * (2 * reach + 1) - sum * sum) * per_pixel;
+    const float left = scatter - together * together / spread;
+    found.residual = std::max(0.0F, left) * shape_.per_misfit_freedom;
+    found.residual_freedom = shape_.misfit_freedom();
+    found.residual_freedom = shape_.misfit_freedom();
+    found.residual_share = sum_g * per_pixel;
   }
 
-  float sigma_;
-  LineKernels kernels_;
+  FirShape shape_;
 };
 
 }  // namespace
+
+FirShape fir_shape(double sigma) {
+  FirShape s;
+  s.kernels = whole_line_kernels(sigma);
+  s.smooth_unit = s.kernels.smooth.unit;
+  s.bend_unit = s.kernels.curvature.unit;
+  s.sigma = static_cast<float>(sigma);
+  s.sigma2 = static_cast<float>(sigma * sigma);
+  s.least_width2 = std::max(0.25F, 0.25F * s.sigma2);
+  s.per_bend_noise = 1 / s.kernels.curvature_norm;
+  s.slope_noise = s.kernels.slope_norm;
+  s.background_from = static_cast<int>(std::ceil(4 * sigma));
+  s.background_to = static_cast<int>(std::ceil(5.5 * sigma));
+  s.per_background_pixel = 0.5F / static_cast<float>(s.background_to - s.background_from + 1);
+  s.misfit_reach = std::max(6, static_cast<int>(std::lround(3 * sigma)));
+  s.per_misfit_pixel = 1 / static_cast<float>(2 * s.misfit_reach + 1);
+  s.per_misfit_freedom = 1 / s.misfit_freedom();
+  return s;
+}
 
 std::unique_ptr<RowDetector> make_fir_zero_crossing(double sigma) {
   return std::make_unique<FirZeroCrossing>(sigma);

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
-#include <facula/acquire/core/median.hpp>
+#include <facula/acquire/stripe/candidate_judgement.hpp>
 #include <facula/acquire/stripe/detector_table.hpp>
 #include <facula/acquire/stripe/line_kernels.hpp>
 #include <facula/acquire/stripe/locate.hpp>
 #include <facula/acquire/stripe/row_noise.hpp>
+#include <facula/acquire/stripe/stripe_choice.hpp>
 #include <facula/acquire/stripe/stripe_detector.hpp>
 #include <facula/acquire/stripe/stripe_location.hpp>
+#include <facula/acquire/stripe/stripe_judge.hpp>
 #include <facula/acquire/stripe/stripe_median.hpp>
+#include <facula/acquire/stripe/stripe_sigma.hpp>
+#include <facula/acquire/stripe/stripe_simd.hpp>
+#include <facula/acquire/stripe/transposed.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,42 +23,7 @@
 namespace facula {
 namespace {
 
-/// Rows [first, last) and, within a row, columns [begin, end) that are searched.
-struct SearchArea {
-  int first = 0;
-  int last = 0;
-  int begin = 0;
-  int end = 0;
-};
-
-SearchArea search_area(const StripeSignal& signal, const StripeOptions& options) {
-  const bool transposed = options.direction == StripeDirection::kPerColumn;
-  const ImageRegion& region = options.region;
-  const int first = transposed ? region.x : region.y;
-  const int begin = transposed ? region.y : region.x;
-  const int rows = transposed ? region.width : region.height;
-  const int cols = transposed ? region.height : region.width;
-  SearchArea area;
-  area.first = std::clamp(first, 0, signal.rows());
-  area.last = rows > 0 ? std::clamp(first + rows, area.first, signal.rows()) : signal.rows();
-  area.begin = std::clamp(begin, 0, signal.cols());
-  area.end = cols > 0 ? std::clamp(begin + cols, area.begin, signal.cols()) : signal.cols();
-  return area;
-}
-
 using Candidates = std::vector<std::optional<StripeCandidate>>;
-
-/// The frame's noise, or the row's own where that is clearly larger: one row is a small sample.
-float noise_about(const StripeCandidate& found, float frame_noise) {
-  return found.row_noise > 1.5F * frame_noise ? found.row_noise : frame_noise;
-}
-
-bool stands_out(const StripeCandidate& found, float noise, const StripeOptions& options) {
-  const double row_noise = static_cast<double>(noise_about(found, noise));
-  return static_cast<double>(found.snr_per_noise) >= options.min_snr * row_noise &&
-         static_cast<double>(found.amplitude) >= options.min_amplitude &&
-         static_cast<double>(found.width) <= options.max_width_ratio * options.sigma;
-}
 
 /// Clears candidates that do not hang together with their neighbours over options.min_run rows: a
 /// line goes on from row to row, grain and sparks do not. A run may skip up to two rows.
@@ -78,40 +48,47 @@ void drop_short_runs(Candidates& candidates, const StripeOptions& options) {
   end_run();
 }
 
-// Median over mean of a sum of about 8 independent squares (Wilson and Hilferty 1931): a residual
-// is what some 9 pixels leave, of which the outer ones count less.
-constexpr float kMedianOfSquares = 0.92F;
-
-/// How the variance grows with the signal (photon noise, speckle): the median over the stripes of
-/// (misfit - noise^2) over the mean signal under it, at least 0 [DN]. Clipped stripes say nothing
-/// about it.
-float signal_noise_gain(const Candidates& candidates, float noise) {
-  std::vector<float> gains;
-  for (const auto& found : candidates) {
-    if (found && !found->saturated && found->amplitude > 0 && found->residual_share > 0) {
-      gains.push_back((found->residual / kMedianOfSquares - noise * noise) /
-                      (found->amplitude * found->residual_share));
-    }
+MeasuredRows measure_all(const StripeSignal& signal,
+                         const StripeLocation& location,
+                         const RowDetector& detector) {
+  MeasuredRows rows(location.size(), location.noise);
+  for (std::size_t r = 0; r < location.size(); ++r) {
+    rows.set(r, {});
+    rows.profile.seen[r] = 0;
+    const int peak = location.peak[r];
+    if (peak < 0 || !signal.row(static_cast<int>(r)).holds(peak)) continue;
+    auto found = detector.measure(signal, static_cast<int>(r), peak);
+    if (!found) continue;
+    found->row_noise = location.row_noise[r];
+    rows.set(r, *found);
   }
-  if (gains.size() < 16) return 0;
-  return std::max(0.0F, median(gains));
+  return rows;
 }
 
-constexpr float kLeastMisfit = 2.5F;  // over the expected mean square: beyond chance for 9 pixels
+StripeProfile judge_fir(MeasuredRows rows, const StripeOptions& options) {
+  StripeProfile profile = judge_rows(std::move(rows), options);
+  if (options.median_rows == 3) median_along(profile, false);
+  return profile;
+}
+
+/// The shortest way, for the default detector on grey frames as they are.
+std::optional<MeasuredRows> measure_grey(ImageView8 frame,
+                                         ImageView8 background,
+                                         const StripeOptions& options) {
+  const bool fits = options.detector == DetectorKind::kFirZeroCrossing && frame.channels == 1 &&
+                    background.empty();
+  if (!fits) return {};
+  if (options.direction == StripeDirection::kPerRow) {
+    return measure_frame_simd(frame, options, nullptr);
+  }
+  const Image8 turned = transposed(frame);
+  return measure_frame_simd(turned.view(), options, nullptr);
+}
 
 void store(const StripeCandidate& found, float gain, std::size_t r, StripeProfile& profile) {
-  const float noise = noise_about(found, profile.noise);
-  const float photons = gain * found.amplitude;
-  const float expected = noise * noise + photons * found.residual_share;
-  float variance = noise * noise + photons * found.position_share;
-  // A profile that is no single Gaussian (a depth edge cuts it, two surfaces share it) says so by
-  // its misfit; the position is then uncertain in the same measure.
-  if (!found.saturated && found.residual > kLeastMisfit * expected) {
-    variance = std::max(variance, found.residual);
-  }
   profile.seen[r] = 1;
   profile.position[r] = found.position;
-  profile.sigma[r] = std::hypot(found.sigma_per_noise * std::sqrt(variance), found.sigma_step);
+  profile.sigma[r] = position_sigma(found, profile.noise, gain);
   profile.amplitude[r] = found.amplitude;
   profile.width[r] = found.width;
   profile.saturated[r] = found.saturated ? 1 : 0;
@@ -132,6 +109,12 @@ void StripeOptions::check() const {
           "stripe median_rows: expected 1 (off) or 3, got ",
           median_rows);
   require(min_run >= 1, "stripe min_run: expected 1 or more, got ", min_run);
+  require(max_candidates >= 1 && max_candidates <= 8,
+          "stripe max_candidates: expected 1 to 8, got ",
+          max_candidates);
+  require(min_hue_share >= 0 && min_hue_share <= 1,
+          "stripe min_hue_share: expected 0 to 1, got ",
+          min_hue_share);
   require(region.x >= 0 && region.y >= 0 && region.width >= 0 && region.height >= 0,
           "stripe region_px: expected 0 or more, got [",
           region.x,
@@ -159,34 +142,14 @@ std::size_t StripeProfile::seen_count() const {
   return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), std::uint8_t{1}));
 }
 
-StripeLocation StripeLocation::none(std::size_t rows) {
-  StripeLocation location;
-  location.peak.assign(rows, -1);
-  location.peak_per_noise.assign(rows, 0);
-  location.row_noise.assign(rows, 0);
-  return location;
-}
-
-StripeLocation locate_stripe(const StripeSignal& signal, const StripeOptions& options) {
-  StripeLocation location = StripeLocation::none(static_cast<std::size_t>(signal.rows()));
-  location.noise = estimate_noise(signal);
-  const LineKernels kernels = line_kernels(options.sigma);
-  const SearchArea area = search_area(signal, options);
-  for (int r = area.first; r < area.last; ++r) {
-    const LocatedRow located = locate_in_row(signal.row(r), kernels, area.begin, area.end, 1);
-    if (located.peaks.empty()) continue;
-    const auto i = static_cast<std::size_t>(r);
-    location.peak[i] = located.peaks.front().column;
-    location.peak_per_noise[i] = located.peaks.front().response / kernels.curvature_norm;
-    location.row_noise[i] = located.row_noise;
-  }
-  return location;
-}
-
 StripeProfile measure_stripe(const StripeSignal& signal,
                              const StripeLocation& location,
                              const StripeOptions& options) {
   const std::unique_ptr<RowDetector> detector = make_detector(options);
+  if (options.detector == DetectorKind::kFirZeroCrossing) {
+    auto rows = measure_rows_simd(signal, location, options);
+    return judge_fir(rows ? std::move(*rows) : measure_all(signal, location, *detector), options);
+  }
   StripeProfile profile = StripeProfile::none(location.size());
   profile.noise = location.noise;
   Candidates candidates(location.size());
@@ -210,6 +173,10 @@ StripeProfile measure_stripe(const StripeSignal& signal,
 StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const StripeOptions& options) {
   options.check();
   require(!frame.empty(), "expected a frame with pixels, got an empty one");
+  if (asks_for_choice(options)) return detect_stripe(StripeView{frame, background}, options);
+  if (auto rows = measure_grey(frame, background, options)) {
+    return judge_fir(std::move(*rows), options);
+  }
   const StripeSignal signal(
       frame, background, options.channel, options.direction == StripeDirection::kPerColumn);
   return measure_stripe(signal, locate_stripe(signal, options), options);

@@ -43,6 +43,9 @@ class StripeSignal {
   int rows() const { return rows_; }
   int cols() const { return cols_; }  ///< of the frame, also where only windows of it are known
 
+  /// Whether every column of the frame is known.
+  bool is_whole() const { return begin_.empty(); }
+
   SignalRow row(int r) const {
     const std::size_t start = static_cast<std::size_t>(r) * static_cast<std::size_t>(width_);
     const int begin = begin_.empty() ? 0 : begin_[static_cast<std::size_t>(r)];

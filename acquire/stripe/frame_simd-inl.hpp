@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A frame in batches of rows: located, settled, measured. Included once per instruction set; see
+// stripe_simd.cpp.
+#if defined(FACULA_FRAME_SIMD) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACULA_FRAME_SIMD
+#undef FACULA_FRAME_SIMD
+#else
+#define FACULA_FRAME_SIMD
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace facula {
+namespace HWY_NAMESPACE {
+
+/// Grey pixels as they are.
+struct GreyRows {
+  using Value = std::uint8_t;
+  ImageView8 frame;
+
+  RowPart<Value> row(int r) const { return {frame.row(r), 0, frame.cols}; }
+  int rows() const { return frame.rows; }
+  int cols() const { return frame.cols; }
+  bool has_flags() const { return false; }
+  bool is_clipped(int r, int c) const {
+    return frame.row(r)[std::clamp(c, 0, frame.cols - 1)] == 255;
+  }
+};
+
+struct SignalRows {
+  using Value = std::int16_t;
+  const StripeSignal& signal;
+
+  RowPart<Value> row(int r) const {
+    const SignalRow row = signal.row(r);
+    return {row.values, row.begin, row.end};
+  }
+  int rows() const { return signal.rows(); }
+  int cols() const { return signal.cols(); }
+  bool has_flags() const { return true; }
+  bool is_clipped(int r, int c) const { return signal.row(r).is_clipped(c); }
+};
+
+/// locate_stripe() batch by batch.
+template <typename Rows>
+class Locator {
+ public:
+  using Value = typename Rows::Value;
+
+  Locator(const Rows& rows, const StripePlan& plan, const SearchArea& area, float noise)
+      : rows_(rows),
+        plan_(plan),
+        last_(area.last),
+        range_(boxes_between({area.begin, area.end}, plan.search)),
+        averaged_(plan.search, noise, true),
+        single_(plan.search, noise, false) {
+    room_.Reserve(rows.cols());
+  }
+
+  bool empty() const { return range_.first >= range_.last; }
+
+  /// Rows [first, first + count), a whole number of groups but for the last.
+  void Locate(int first, int count, StripeLocation& location) {
+    again_.clear();
+    std::array<LinePlace, kBatchRows> places;
+    for (int i = 0; i < count; i += kRowsAtOnce) {
+      FourRows<Value> group;
+      for (int k = 0; k < kRowsAtOnce; ++k) {
+        group[static_cast<std::size_t>(k)] = rows_.row(std::min(first + i + k, last_ - 1)).values;
+      }
+      const LinePlace place =
+          SearchRows(group, rows_.cols(), plan_.search, range_, averaged_, room_);
+      std::fill_n(places.begin() + i, std::min(kRowsAtOnce, count - i), place);
+    }
+    batch_.count = 0;
+    for (int i = 0; i < count; ++i) Add(first + i, places[static_cast<std::size_t>(i)]);
+    Settle(true, location);
+    if (!again_.empty()) LocateAlone(location);
+  }
+
+ private:
+  void Add(int r, const LinePlace& place) {
+    if (place.column < 0) return again_.push_back(r);
+    const int q = batch_.count++;
+    batch_.rows[q] = rows_.row(r);
+    batch_.column[q] = static_cast<std::int16_t>(place.column);
+    row_[q] = r;
+    place_[q] = place;
+  }
+
+  /// Rows that do not show the line of their group are looked at again where `may_repeat`.
+  void Settle(bool may_repeat, StripeLocation& location) {
+    SettleRows(plan_, batch_);
+    for (int q = 0; q < batch_.count; ++q) {
+      const SettledLine line = {batch_.column[q] + batch_.shift[q], batch_.drop[q]};
+      const bool settled = line.drop > 0 && line.column >= 0 && line.column < rows_.cols();
+      if (may_repeat && !(settled && shows(line, place_[q].height))) {
+        again_.push_back(row_[q]);
+      } else if (settled) {
+        const auto r = static_cast<std::size_t>(row_[q]);
+        location.peak[r] = line.column;
+        location.peak_per_noise[r] = 0.5F * static_cast<float>(line.drop);
+        location.row_noise[r] = place_[q].row_noise;
+      }
+    }
+  }
+
+  void LocateAlone(StripeLocation& location) {
+    batch_.count = 0;
+    for (const int r : again_) {
+      const Value* row = rows_.row(r).values;
+      const LinePlace place = SearchRows<Value>(
+          {row, row, row, row}, rows_.cols(), plan_.search, range_, single_, room_);
+      if (place.column >= 0) Add(r, place);
+    }
+    Settle(false, location);
+  }
+
+  const Rows& rows_;
+  const StripePlan& plan_;
+  int last_;
+  BoxRange range_;
+  RowNoiseScale averaged_;
+  RowNoiseScale single_;
+  SearchRoom room_;
+  SettleBatch<Value> batch_;
+  int row_[kBatchRows];
+  LinePlace place_[kBatchRows];
+  std::vector<int> again_;
+};
+
+/// The default detector batch by batch.
+template <typename Rows>
+class Measurer {
+ public:
+  Measurer(const Rows& rows, const StripePlan& plan) : rows_(rows), plan_(plan) {}
+
+  /// Rows [first, first + count) about their peaks.
+  void Measure(int first, int count, const StripeLocation& location, MeasuredRows& measured) {
+    for (int q = 0; q < count; ++q) {
+      const int peak = location.peak[static_cast<std::size_t>(first + q)];
+      batch_.rows[q] = rows_.row(first + q);
+      const bool held = peak >= batch_.rows[q].begin && peak < batch_.rows[q].end;
+      batch_.column[q] = held ? peak : -1;
+      if (!held) batch_.rows[q] = {kNothing, 0, kMostWindow};
+    }
+    batch_.count = count;
+    MeasureRowsOfBatch(plan_, batch_);
+    const auto r = static_cast<std::size_t>(first);
+    const auto n = static_cast<std::size_t>(count);
+    const auto copy = [&](const float* from, float* to) { std::copy_n(from, n, to + r); };
+    StripeProfile& profile = measured.profile;
+    copy(batch_.position, profile.position.data());
+    copy(batch_.amplitude, profile.amplitude.data());
+    copy(batch_.width, profile.width.data());
+    copy(batch_.snr_per_noise, measured.snr_per_noise());
+    copy(batch_.sigma_per_noise, measured.sigma_per_noise());
+    copy(batch_.residual, measured.residual());
+    copy(batch_.residual_share, measured.residual_share());
+    copy(batch_.position_share, measured.position_share());
+    copy(location.row_noise.data() + r, measured.row_noise());
+    for (std::size_t q = 0; q < n; ++q) {
+      profile.seen[r + q] = batch_.column[q] >= 0 && batch_.found[q] != 0 ? 1 : 0;
+    }
+    if (batch_.any_clipped || rows_.has_flags()) JudgeClipped(first, count, measured);
+  }
+
+ private:
+  static constexpr typename Rows::Value kNothing[kMostWindow] = {};
+
+  void JudgeClipped(int first, int count, MeasuredRows& measured) {
+    for (int q = 0; q < count; ++q) {
+      const auto r = static_cast<std::size_t>(first + q);
+      const float position = batch_.position[q];
+      if (measured.profile.seen[r] == 0) continue;
+      if (!rows_.is_clipped(first + q, static_cast<int>(position + 0.5F))) continue;
+      measured.profile.saturated[r] = 1;
+      StripeCandidate found;
+      found.position = position;
+      found.background = batch_.background[q];
+      found.sigma_per_noise = batch_.sigma_per_noise[q];
+      JudgeRow(first + q, batch_.top_bend[q], found);
+      measured.sigma_per_noise()[r] = found.sigma_per_noise;
+      measured.set_sigma_step(r, found.sigma_step);
+    }
+  }
+
+  void JudgeRow(int r, float bend, StripeCandidate& found) {
+    const RowPart<typename Rows::Value> row = rows_.row(r);
+    values_.assign(row.values, row.values + (row.end - row.begin));
+    flags_.resize(values_.size());
+    for (int c = row.begin; c < row.end; ++c) {
+      flags_[static_cast<std::size_t>(c - row.begin)] = rows_.is_clipped(r, c) ? 1 : 0;
+    }
+    judge_clipped({values_.data(), flags_.data(), row.begin, row.end},
+                  plan_.shape.sigma,
+                  bend,
+                  found);
+  }
+
+  const Rows& rows_;
+  const StripePlan& plan_;
+  MeasureBatch<typename Rows::Value> batch_;
+  std::vector<std::int16_t> values_;
+  std::vector<std::uint8_t> flags_;
+};
+
+template <typename Rows>
+void LocateAndMeasure(const Rows& rows,
+                      const StripeOptions& options,
+                      StripeLocation& location,
+                      MeasuredRows* measured) {
+  const StripePlan plan(options.sigma);
+  const SearchArea area = search_area(rows.rows(), rows.cols(), options);
+  location.noise = EstimateNoise(
+      rows.rows(), rows.cols(), [&](int r) { return rows.row(r).values; });
+  Locator<Rows> locator(rows, plan, area, location.noise);
+  Measurer<Rows> measurer(rows, plan);
+  if (measured != nullptr && area.last - area.first < rows.rows()) measured->clear();
+  for (int r = area.first; r < area.last && !locator.empty(); r += kBatchRows) {
+    const int count = std::min(kBatchRows, area.last - r);
+    locator.Locate(r, count, location);
+    if (measured != nullptr) measurer.Measure(r, count, location, *measured);
+  }
+}
+
+bool MeasureGrey(const ImageView8& grey,
+                 const StripeOptions& options,
+                 StripeLocation& location,
+                 MeasuredRows* measured) {
+  LocateAndMeasure(GreyRows{grey}, options, location, measured);
+  measured->profile.noise = location.noise;
+  measured->residual_freedom = fir_shape(options.sigma).misfit_freedom();
+  return true;
+}
+
+bool LocateSignal(const StripeSignal& signal,
+                  const StripeOptions& options,
+                  StripeLocation& location) {
+  LocateAndMeasure(SignalRows{signal}, options, location, nullptr);
+  return true;
+}
+
+bool MeasureSignal(const StripeSignal& signal,
+                   const StripeLocation& location,
+                   const StripeOptions& options,
+                   MeasuredRows& measured) {
+  const StripePlan plan(options.sigma);
+  const SignalRows rows{signal};
+  Measurer<SignalRows> measurer(rows, plan);
+  const int all = static_cast<int>(location.size());
+  for (int r = 0; r < all; r += kBatchRows) {
+    measurer.Measure(r, std::min(kBatchRows, all - r), location, measured);
+  }
+  measured.residual_freedom = plan.shape.misfit_freedom();
+  return true;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facula
+HWY_AFTER_NAMESPACE();
+
+#endif  // FACULA_FRAME_SIMD

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/stripe/fir_clipped.hpp>
+#include <facula/acquire/stripe/row_noise.hpp>
+#include <facula/acquire/stripe/search_area.hpp>
+#include <facula/acquire/stripe/stripe_plan.hpp>
+#include <facula/acquire/stripe/stripe_simd.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <vector>
+
+#define HWY_WANT_AVX3_DL 1
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "facula/acquire/stripe/stripe_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#if HWY_TARGET != HWY_SCALAR
+#include <facula/acquire/stripe/row_noise_simd-inl.hpp>
+#include <facula/acquire/stripe/row_search_simd-inl.hpp>
+#include <facula/acquire/stripe/row_window_simd-inl.hpp>
+// Below row_window_simd-inl.hpp, whose vectors it names.
+#include <facula/acquire/stripe/fir_simd-inl.hpp>
+#include <facula/acquire/stripe/frame_simd-inl.hpp>
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace facula {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+// One lane a vector: nothing is gained over the plain functions.
+bool MeasureGrey(const ImageView8&, const StripeOptions&, StripeLocation&, MeasuredRows*) {
+  return false;
+}
+bool LocateSignal(const StripeSignal&, const StripeOptions&, StripeLocation&) {
+  return false;
+}
+bool MeasureSignal(const StripeSignal&,
+                   const StripeLocation&,
+                   const StripeOptions&,
+                   MeasuredRows&) {
+  return false;
+}
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facula
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace facula {
+namespace {
+
+HWY_EXPORT(MeasureGrey);
+HWY_EXPORT(LocateSignal);
+HWY_EXPORT(MeasureSignal);
+
+constexpr int kLeastCols = 64;
+
+}  // namespace
+
+std::optional<MeasuredRows> measure_frame_simd(ImageView8 grey,
+                                               const StripeOptions& options,
+                                               StripeLocation* location) {
+  if (options.sigma > kMostSigma || grey.cols < kLeastCols || grey.channels != 1) return {};
+  StripeLocation located = StripeLocation::none(static_cast<std::size_t>(grey.rows));
+  MeasuredRows rows(located.size(), 0);
+  if (!HWY_DYNAMIC_DISPATCH(MeasureGrey)(grey, options, located, &rows)) return {};
+  if (location != nullptr) *location = std::move(located);
+  return rows;
+}
+
+std::optional<StripeLocation> locate_stripe_simd(const StripeSignal& signal,
+                                                 const StripeOptions& options) {
+  if (options.sigma > kMostSigma || signal.cols() < kLeastCols || !signal.is_whole()) return {};
+  StripeLocation location = StripeLocation::none(static_cast<std::size_t>(signal.rows()));
+  if (!HWY_DYNAMIC_DISPATCH(LocateSignal)(signal, options, location)) return {};
+  return location;
+}
+
+std::optional<MeasuredRows> measure_rows_simd(const StripeSignal& signal,
+                                              const StripeLocation& location,
+                                              const StripeOptions& options) {
+  if (options.sigma > kMostSigma) return {};
+  MeasuredRows rows(location.size(), location.noise);
+  if (!HWY_DYNAMIC_DISPATCH(MeasureSignal)(signal, location, options, rows)) return {};
+  return rows;
+}
+
+}  // namespace facula
+#endif  // HWY_ONCE

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <facula/acquire/core/image_view.hpp>
+
+#include <vector>
+
+namespace facula {
+
+/// The line as the program Horus finds it, in OpenCV's own functions on one thread: threshold to
+/// zero, 5 x 5 box blur, threshold again, the brightest column of each row, only +-8 columns about
+/// it kept, centre of gravity per row; then a Gaussian of 2 rows along each unbroken run. Position
+/// per row [px], -1 where there is none.
+std::vector<float> filter_chain(ImageView8 grey);
+
+}  // namespace facula
