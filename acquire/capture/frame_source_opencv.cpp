@@ -81,7 +81,10 @@ class VideoFile : public FrameSource {
  public:
   explicit VideoFile(const std::filesystem::path& path) : path_(path) {
     open();
-    while (video_.grab()) ++size_;  // the container's own count is often wrong
+    // The container's own count is often wrong. Taken apart without decoding, its packets are
+    // counted a hundred times faster; a library that cannot do that decodes them.
+    video_.set(cv::CAP_PROP_FORMAT, -1);
+    while (video_.grab()) ++size_;
     require(size_ > 0, "'", path_.string(), "' holds no video frame that can be decoded");
     open();
   }
