@@ -37,15 +37,19 @@ struct LogFigures {
 /// What a whole capture gave, and how well.
 struct ExtractResult {
   PolarScan scan;
-  std::size_t frames = 0;               ///< [1]
-  std::size_t rows_searched = 0;        ///< rows of the scan over all frames [1]
-  std::size_t stripes_seen = 0;         ///< rows in which a stripe was found [1]
-  std::size_t outside_volume = 0;       ///< stripes dropped by the work volume or the geometry [1]
-  std::size_t saturated = 0;            ///< stripes with a clipped core [1]
-  double median_pixel_sigma = 0;        ///< of the stripes kept [px]
-  double median_width = 0;              ///< of the stripes kept, standard deviation [px]
-  double median_noise = 0;              ///< of the frames [DN]
-  double median_point_sigma = 0;        ///< along the ray [m]
+  std::size_t frames = 0;          ///< [1]
+  std::size_t rows_searched = 0;   ///< rows of the scan over all frames [1]
+  std::size_t stripes_seen = 0;    ///< rows in which a stripe was found [1]
+  std::size_t outside_volume = 0;  ///< stripes dropped by the work volume or the geometry [1]
+  std::size_t saturated = 0;       ///< stripes with a clipped core [1]
+  double median_pixel_sigma = 0;   ///< of the stripes kept [px]
+  double median_width = 0;         ///< of the stripes kept, standard deviation [px]
+  double median_noise = 0;         ///< of the frames [DN]
+  double median_point_sigma = 0;   ///< along the ray, stripe and calibration together [m]
+  double median_stripe_sigma = 0;  ///< the stripe's share of it [m]
+  /// The calibration's share of it [m]; none where the rig has no covariance: point sigmas then
+  /// hold the stripe's share only.
+  std::optional<double> median_calibration_sigma;
   std::vector<double> zero_line_shift;  ///< shift between run and reference, per frame [px]
   std::optional<LogFigures> log;        ///< where a stripe log was written or read
 };

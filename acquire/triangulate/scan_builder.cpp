@@ -4,6 +4,7 @@
 #include <facula/acquire/triangulate/scan_builder.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -18,7 +19,9 @@ int rows_of_scan(const Capture& capture) {
 }  // namespace
 
 ScanBuilder::ScanBuilder(const Capture& capture, std::size_t columns, int num_threads)
-    : capture_(capture), table_(capture.rig, capture.laser, num_threads) {
+    : capture_(capture),
+      table_(capture.rig, capture.laser, num_threads),
+      calibration_(capture.rig, capture.laser) {
   require(capture.stripe.direction == capture.rig.stripe_direction,
           "expected the stripe to be searched along the direction that the rig says");
   const int rows = rows_of_scan(capture);
@@ -43,9 +46,9 @@ ScanBuilder::Placed ScanBuilder::place_points(const MeasuredFrame& frame,
   PolarScan& scan = result_.scan;
   for (std::size_t r = 0; r < profile.size(); ++r) {
     if (profile.seen[r] == 0) continue;
-    const auto point = table_.at(static_cast<int>(r),
-                                 static_cast<double>(profile.position[r]),
-                                 static_cast<double>(profile.sigma[r]));
+    const auto across = static_cast<double>(profile.position[r]);
+    const auto point =
+        table_.at(static_cast<int>(r), across, static_cast<double>(profile.sigma[r]));
     if (!point) {
       ++placed.outside;
       continue;
@@ -55,7 +58,13 @@ ScanBuilder::Placed ScanBuilder::place_points(const MeasuredFrame& frame,
       ++placed.outside;
       continue;
     }
-    const auto sigma = static_cast<float>(point->sigma);
+    const double range = point->x_in_camera.norm();
+    const double calibration_variance =
+        calibration_.variance(table_.pixel(static_cast<int>(r), across), range, frame.position);
+    const auto sigma =
+        static_cast<float>(std::sqrt(point->sigma * point->sigma + calibration_variance));
+    placed.stripe_sigma.push_back(static_cast<float>(point->sigma));
+    placed.calibration_sigma.push_back(static_cast<float>(std::sqrt(calibration_variance)));
     placed.saturated += profile.saturated[r];
     placed.pixel_sigma.push_back(profile.sigma[r]);
     placed.width.push_back(profile.width[r]);
@@ -96,6 +105,8 @@ void ScanBuilder::place(const MeasuredFrame& frame) {
   for (const float sigma : placed.pixel_sigma) pixel_sigma_.add(sigma);
   for (const float width : placed.width) width_.add(width);
   for (const float sigma : placed.point_sigma) point_sigma_.add(sigma);
+  for (const float sigma : placed.stripe_sigma) stripe_sigma_.add(sigma);
+  for (const float sigma : placed.calibration_sigma) calibration_sigma_.add(sigma);
 }
 
 /// Straight between the placed columns on both sides, as the only one where there is but one.
@@ -133,6 +144,8 @@ ExtractResult ScanBuilder::finish() {
   result_.median_pixel_sigma = pixel_sigma_.value();
   result_.median_width = width_.value();
   result_.median_point_sigma = point_sigma_.value();
+  result_.median_stripe_sigma = stripe_sigma_.value();
+  if (calibration_.known()) result_.median_calibration_sigma = calibration_sigma_.value();
   return std::move(result_);
 }
 

@@ -3,6 +3,7 @@
 
 #include <facula/acquire/capture/capture.hpp>
 #include <facula/acquire/triangulate/binned_median.hpp>
+#include <facula/acquire/triangulate/calibration_sigma.hpp>
 #include <facula/acquire/triangulate/extract_scan.hpp>
 #include <facula/acquire/triangulate/measured_frame.hpp>
 #include <facula/acquire/triangulate/sheet_table.hpp>
@@ -35,6 +36,8 @@ class ScanBuilder {
     std::vector<float> pixel_sigma;
     std::vector<float> width;
     std::vector<float> point_sigma;
+    std::vector<float> stripe_sigma;
+    std::vector<float> calibration_sigma;
   };
 
   Placed place_points(const MeasuredFrame& frame, const RigidTransform& scan_from_camera);
@@ -42,6 +45,7 @@ class ScanBuilder {
 
   const Capture& capture_;
   SheetTable table_;
+  CalibrationSigma calibration_;
   ExtractResult result_;
   std::vector<std::uint8_t> placed_;
   std::vector<float> noise_;
@@ -50,6 +54,8 @@ class ScanBuilder {
   BinnedMedian pixel_sigma_;
   BinnedMedian width_;
   BinnedMedian point_sigma_;
+  BinnedMedian stripe_sigma_;
+  BinnedMedian calibration_sigma_;
 };
 
 }  // namespace facula

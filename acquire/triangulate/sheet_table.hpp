@@ -25,6 +25,9 @@ class SheetTable {
   /// stripe is at `position` along it; `pixel_sigma` is the standard deviation of that. All [px].
   std::optional<TriangulatedPoint> at(int row, double position, double pixel_sigma) const;
 
+  /// The pixel at `position` along row `row` of the scan.
+  Eigen::Vector2d pixel(int row, double position) const;
+
   double ray_error() const { return ray_error_; }  ///< largest one met midway [px]
   int spacing() const { return spacing_; }         ///< of the columns [px]
 
@@ -37,7 +40,6 @@ class SheetTable {
     double dy = 0;
   };
 
-  Eigen::Vector2d pixel(int row, double position) const;
   Ray exact_ray(const Eigen::Vector2d& pixel, const Eigen::Vector2d* start) const;
   Ray interpolated(int row, double position) const;
   void fill_row(int row);

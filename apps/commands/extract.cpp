@@ -98,6 +98,18 @@ void report(const ExtractResult& result, Figures& figures) {
   figures.number("stripe_width_px", "stripe width, median", result.median_width, 2);
   figures.number("noise_dn", "image noise, median", result.median_noise, 2);
   figures.number("point_sigma_mm", "point sigma, median", 1000 * result.median_point_sigma, 3);
+  figures.number(
+      "stripe_share_mm", "  of it the stripe's share", 1000 * result.median_stripe_sigma, 3);
+  if (result.median_calibration_sigma) {
+    figures.number("calibration_share_mm",
+                   "  of it the calibration's share",
+                   1000 * *result.median_calibration_sigma,
+                   3);
+  } else {
+    figures.note(
+        "The rig has no [covariance]: the sigmas hold the stripe's share only, not the "
+        "calibration's.");
+  }
   report_zero_line(result.zero_line_shift, figures);
   if (result.log) report_log(*result.log, figures);
 }
