@@ -71,6 +71,7 @@ std::unique_ptr<RowDetector> make_detector(const StripeOptions& options) {
 
 std::vector<std::string> detector_names() {
   std::vector<std::string> names;
+  names.reserve(kDetectors.size());
   for (const DetectorRow& row : kDetectors) names.emplace_back(row.name);
   return names;
 }
