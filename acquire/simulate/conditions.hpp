@@ -70,7 +70,7 @@ struct Timing {
 };
 
 /// Lamps on the mains: their light is 1 + depth cos(2 pi frequency t + phase).
-struct Flicker {
+struct MainsFlicker {
   double depth = 0;        ///< (greatest - least) / (greatest + least) [0..1]
   double frequency = 100;  ///< twice the mains frequency [Hz]
   double phase = 0;        ///< [rad]

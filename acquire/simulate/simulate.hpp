@@ -39,7 +39,7 @@ struct SimulateOptions {
   bool colour_frames = false;  ///< deliver blue-green-red frames instead of grey ones
   std::optional<Speckle> speckle;
   Lens lens;
-  Flicker flicker;
+  MainsFlicker flicker;
   Timing timing;
   AxisErrors axis_errors;
   double stripe_noise = 0.1;       ///< of simulate_profile()'s positions, 1 std. deviation [px]

@@ -109,7 +109,7 @@ double FrameRenderer::time_of(const Exposure& exposure) const {
 
 // The light of the mains, averaged over the exposure: its swing shrinks by sinc(f T).
 void FrameRenderer::flicker(Image<double>& ambient, const Exposure& exposure) const {
-  const Flicker& mains = options_.flicker;
+  const MainsFlicker& mains = options_.flicker;
   if (mains.depth == 0) return;
   const double turn = std::numbers::pi * mains.frequency * options_.timing.exposure_time;
   const double swing = mains.depth * (turn == 0 ? 1.0 : std::sin(turn) / turn);

@@ -48,7 +48,7 @@ void check_lens(const Lens& lens) {
   check_range("lens.vignetting", lens.vignetting, 0, 40);
 }
 
-void check_timing(const Timing& timing, const Flicker& flicker) {
+void check_timing(const Timing& timing, const MainsFlicker& flicker) {
   check_range("timing.frame_interval", timing.frame_interval, 0, 3600);
   check_range("timing.exposure_time", timing.exposure_time, 0, 3600);
   check_range("timing.row_time", timing.row_time, 0, 1);
