@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/calibrate/laser_calibration.hpp>
 #include <facula/acquire/core/error.hpp>
-#include <facula/acquire/core/median.hpp>
+#include <facula/acquire/core/random.hpp>
+#include <facula/acquire/stripe/column_gate.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace facula {
 namespace {
 
 constexpr std::size_t kLeastPlaces = 20;
-constexpr int kNeighbours = 12;  ///< on either side, of the line a place is judged by
 
 /// Of an image row the columns within the outline [px]; empty when first > last.
 struct Span {
@@ -60,74 +59,125 @@ std::vector<Span> spans_of(const std::vector<Eigen::Vector2d>& outline, int rows
   return spans;
 }
 
-/// The picture with all that lies beside the board painted over: where the line is searched along
-/// rows, the outermost pixel of the board is repeated, so that no edge comes to be.
-Image8 only_board(ImageView8 frame, const std::vector<Span>& spans) {
-  Image8 image(frame.rows, frame.cols, frame.channels);
-  const auto channels = static_cast<std::ptrdiff_t>(frame.channels);
-  for (int r = 0; r < frame.rows; ++r) {
-    const Span& span = spans[static_cast<std::size_t>(r)];
-    if (span.empty()) continue;
-    for (int c = 0; c < frame.cols; ++c) {
-      const std::uint8_t* from = frame.row(r) + channels * std::clamp(c, span.first, span.last);
-      std::copy(from, from + channels, image.row(r) + channels * c);
-    }
-  }
-  return image;
-}
-
-/// The picture with rows and columns exchanged.
-Image8 transposed(ImageView8 frame) {
-  Image8 image(frame.cols, frame.rows, frame.channels);
-  for (int r = 0; r < frame.rows; ++r) {
-    for (int c = 0; c < frame.cols; ++c) {
-      for (int k = 0; k < frame.channels; ++k) {
-        image.row(c)[static_cast<std::ptrdiff_t>(r) * frame.channels + k] =
-            frame.row(r)[static_cast<std::ptrdiff_t>(c) * frame.channels + k];
-      }
-    }
-  }
-  return image;
-}
-
-/// Where the line is, as (row, position in the row).
+/// Where the line is: row (or column) and position in it, and the same undistorted.
 struct Place {
   double row;
   double position;
   double sigma;
+  Eigen::Vector2d ray;  ///< on the plane z = 1, x along the searched row
 };
 
-/// Of the places within reach of place i, the line through them by the median of slopes (Theil and
-/// Sen), and how far i lies off it [px].
-double off_neighbours(const std::vector<Place>& places, std::size_t i) {
-  const std::size_t first = i > kNeighbours ? i - kNeighbours : 0;
-  const std::size_t last = std::min(places.size() - 1, i + kNeighbours);
-  std::vector<double> slopes;
-  for (std::size_t a = first; a < last; ++a) {
-    for (std::size_t b = a + 1; b <= last; ++b) {
-      slopes.push_back((places[b].position - places[a].position) / (places[b].row - places[a].row));
+/// x = offset + slope y on the plane z = 1: sheet and board meet in a straight line.
+struct StraightLine {
+  double offset = 0;
+  double slope = 0;
+  double off(const Eigen::Vector2d& ray) const { return ray.x() - offset - slope * ray.y(); }
+};
+
+/// The line that most places lie on, by the best of 400 pairs, then least squares over those that
+/// agree.
+StraightLine straight_line(const std::vector<Place>& places, double tolerance) {
+  Random random(1);
+  StraightLine best;
+  std::size_t most = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const Eigen::Vector2d& a = places[random.below(places.size())].ray;
+    const Eigen::Vector2d& b = places[random.below(places.size())].ray;
+    if (std::abs(a.y() - b.y()) < 10 * tolerance) continue;
+    StraightLine line;
+    line.slope = (b.x() - a.x()) / (b.y() - a.y());
+    line.offset = a.x() - line.slope * a.y();
+    const auto agree =
+        static_cast<std::size_t>(std::count_if(places.begin(), places.end(), [&](const Place& p) {
+          return std::abs(line.off(p.ray)) < tolerance;
+        }));
+    if (agree > most) {
+      most = agree;
+      best = line;
     }
   }
-  const double slope = median(slopes);
-  std::vector<double> offsets;
-  for (std::size_t a = first; a <= last; ++a) {
-    offsets.push_back(places[a].position - slope * (places[a].row - places[i].row));
+  for (int round = 0; round < 3; ++round) {
+    double n = 0;
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    for (const Place& p : places) {
+      if (std::abs(best.off(p.ray)) >= tolerance) continue;
+      mean += p.ray;
+      n += 1;
+    }
+    if (n < 3) return best;
+    mean /= n;
+    double yy = 0;
+    double xy = 0;
+    for (const Place& p : places) {
+      if (std::abs(best.off(p.ray)) >= tolerance) continue;
+      yy += std::pow(p.ray.y() - mean.y(), 2);
+      xy += (p.ray.y() - mean.y()) * (p.ray.x() - mean.x());
+    }
+    if (!(yy > 0)) return best;
+    best.slope = xy / yy;
+    best.offset = mean.x() - best.slope * mean.y();
   }
-  return std::abs(places[i].position - median(offsets));
+  return best;
 }
 
-std::vector<Place> places_of(const StripeProfile& profile, const std::vector<Span>& spans) {
-  std::vector<Place> places;
-  for (std::size_t r = 0; r < profile.size(); ++r) {
-    if (profile.seen[r] == 0 || spans[r].empty()) continue;
-    // Half a line's width from the outline is cut off.
-    const double room = 2.0 * profile.width[r];
-    if (profile.position[r] < spans[r].first + room || profile.position[r] > spans[r].last - room) {
-      continue;
-    }
-    places.push_back({static_cast<double>(r), profile.position[r], profile.sigma[r]});
+/// How the camera's pixels look when rows are searched, or columns.
+class SearchFrame {
+ public:
+  SearchFrame(const Camera& camera, StripeDirection direction)
+      : camera_(camera), level_(direction == StripeDirection::kPerColumn) {}
+
+  int rows() const { return level_ ? camera_.width : camera_.height; }
+  int cols() const { return level_ ? camera_.height : camera_.width; }
+  Eigen::Vector2d turned(const Eigen::Vector2d& p) const {
+    return level_ ? Eigen::Vector2d(p.y(), p.x()) : p;
   }
-  return places;
+  double pixels_per_ray() const { return level_ ? camera_.fy : camera_.fx; }
+
+  std::vector<Place> places(const StripeProfile& profile) const {
+    std::vector<Place> found;
+    for (std::size_t r = 0; r < profile.size(); ++r) {
+      if (profile.seen[r] == 0) continue;
+      const Eigen::Vector2d at(profile.position[r], static_cast<double>(r));
+      const auto ray = camera_.undistort(turned(at));
+      if (ray) found.push_back({at.y(), at.x(), profile.sigma[r], turned(*ray)});
+    }
+    return found;
+  }
+
+  /// The columns within `reach` of the line and within the outline's spans.
+  ColumnGate gate_about(const StraightLine& line,
+                        const std::vector<Span>& spans,
+                        double reach) const {
+    ColumnGate gate;
+    for (int r = 0; r < rows(); ++r) {
+      const Span& span = spans[static_cast<std::size_t>(r)];
+      double at = 0.5 * cols();
+      // The line's place in this row: the row hardly depends on x, so two steps suffice.
+      for (int step = 0; step < 3; ++step) {
+        const auto ray = camera_.undistort(turned({at, static_cast<double>(r)}));
+        if (!ray) break;
+        at -= pixels_per_ray() * line.off(turned(*ray));
+      }
+      const int first = std::max(span.first, static_cast<int>(std::floor(at - reach)));
+      const int end = std::min(span.last + 1, static_cast<int>(std::ceil(at + reach)) + 1);
+      gate.first.push_back(first);
+      gate.end.push_back(std::max(first, end));
+    }
+    return gate;
+  }
+
+ private:
+  const Camera& camera_;
+  bool level_;
+};
+
+ColumnGate gate_of(const std::vector<Span>& spans) {
+  ColumnGate gate;
+  for (const Span& span : spans) {
+    gate.first.push_back(span.empty() ? 0 : span.first);
+    gate.end.push_back(span.empty() ? 0 : span.last + 1);
+  }
+  return gate;
 }
 
 }  // namespace
@@ -155,35 +205,32 @@ LaserLineView find_line_on_board(ImageView8 frame,
           frame.cols,
           " x ",
           frame.rows);
-  const bool level = options.stripe.direction == StripeDirection::kPerColumn;
+  const SearchFrame search(camera, options.stripe.direction);
   auto outline = outline_in_image(board, camera, camera_from_board, options.margin);
-  if (level) {
-    for (Eigen::Vector2d& p : outline) std::swap(p.x(), p.y());
-  }
-  const Image8 turned = level ? transposed(frame) : Image8();
-  const Image8 turned_dark = level && !background.empty() ? transposed(background) : Image8();
-  const ImageView8 upright = level ? turned.view() : frame;
-  const ImageView8 dark = level ? turned_dark.view() : background;
-  const std::vector<Span> spans = spans_of(outline, upright.rows, upright.cols);
-  StripeOptions stripe = options.stripe;
-  stripe.direction = StripeDirection::kPerRow;
-  const Image8 lit = only_board(upright, spans);
-  const Image8 unlit = dark.empty() ? Image8() : only_board(dark, spans);
-  const StripeProfile profile =
-      detect_stripe(lit.view(), unlit.empty() ? ImageView8() : unlit.view(), stripe);
+  for (Eigen::Vector2d& p : outline) p = search.turned(p);
+  const std::vector<Span> spans = spans_of(outline, search.rows(), search.cols());
 
   LaserLineView line;
   line.direction = options.stripe.direction;
-  const std::vector<Place> places = places_of(profile, spans);
-  for (std::size_t i = 0; i < places.size() && places.size() >= kLeastPlaces; ++i) {
-    if (off_neighbours(places, i) > options.max_jump) continue;
-    const Place& p = places[i];
-    line.pixels.emplace_back(level ? p.row : p.position, level ? p.position : p.row);
-    line.sigmas.push_back(p.sigma);
+  std::vector<Place> places =
+      search.places(detect_stripe(frame, background, options.stripe, gate_of(spans)));
+  const std::size_t seen = places.size();
+  if (seen >= kLeastPlaces) {
+    const double tolerance = options.max_jump / search.pixels_per_ray();
+    const StraightLine straight = straight_line(places, tolerance);
+    const double reach = options.max_jump + 4 * options.stripe.sigma;
+    places = search.places(detect_stripe(
+        frame, background, options.stripe, search.gate_about(straight, spans, reach)));
+    for (const Place& p : places) {
+      if (std::abs(straight.off(p.ray)) > tolerance) continue;
+      line.pixels.push_back(search.turned({p.position, p.row}));
+      line.sigmas.push_back(p.sigma);
+    }
   }
   if (line.pixels.size() < kLeastPlaces) {
-    line.failure = "no laser line on the board: seen in " + std::to_string(places.size()) +
-                   " places, " + std::to_string(kLeastPlaces) +
+    line.failure = "no laser line on the board: " + std::to_string(line.pixels.size()) + " of " +
+                   std::to_string(seen) + " places lie on a straight line, " +
+                   std::to_string(kLeastPlaces) +
                    " are needed; check that it crosses the board, its colour and its direction";
     line.pixels.clear();
     line.sigmas.clear();

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
 #include <opencv2/aruco/charuco.hpp>
+#include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -60,6 +62,57 @@ cv::Ptr<cv::aruco::Dictionary> dictionary_of(const Board& board) {
        "'");
 }
 
+/// Corners as the module leaves them count pixel corners, not centres, as whole numbers, and some
+/// are drawn to a marker's corner. Those near where one homography has them are refined from there,
+/// in a window that ends before the markers; the others are dropped.
+void refine(const cv::Mat& image,
+            const Board& board,
+            std::vector<int>& ids,
+            std::vector<cv::Point2f>& corners) {
+  if (ids.size() < 4) return;
+  std::vector<cv::Point2f> on_board;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    corners[i] -= cv::Point2f(0.5F, 0.5F);
+    const Eigen::Vector3d p = board.point(ids[i]) / board.spacing;
+    on_board.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
+  }
+  cv::theRNG().state = 1;
+  const cv::Mat homography = cv::findHomography(on_board, corners, cv::RANSAC, 2.0);
+  if (homography.empty()) return;
+  std::vector<cv::Point2f> expected;
+  cv::perspectiveTransform(on_board, expected, homography);
+  std::vector<int> kept_ids;
+  std::vector<cv::Point2f> kept;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    std::vector<cv::Point2f> beside = {{on_board[i].x + 0.7F, on_board[i].y + 0.7F},
+                                       {on_board[i].x - 0.7F, on_board[i].y + 0.7F}};
+    cv::perspectiveTransform(beside, beside, homography);
+    const double gap = 0.5 * (1 - board.marker_side() / board.spacing);
+    const double diagonal =
+        std::min(cv::norm(beside[0] - expected[i]), cv::norm(beside[1] - expected[i]));
+    const int reach = std::clamp(static_cast<int>(gap * diagonal), 2, 8);
+    const double stray = std::max(1.5, 0.5 * reach);
+    std::vector<cv::Point2f> corner = {cv::norm(corners[i] - expected[i]) < stray ? corners[i]
+                                                                                  : expected[i]};
+    const cv::Point2f from = corner[0];
+    const cv::Rect2f inside(static_cast<float>(reach) + 2,
+                            static_cast<float>(reach) + 2,
+                            static_cast<float>(image.cols - 2 * reach - 4),
+                            static_cast<float>(image.rows - 2 * reach - 4));
+    if (!inside.contains(from)) continue;
+    cv::cornerSubPix(image,
+                     corner,
+                     {reach, reach},
+                     {-1, -1},
+                     {cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 60, 1e-4});
+    if (cv::norm(corner[0] - from) > stray) continue;
+    kept_ids.push_back(ids[i]);
+    kept.push_back(corner[0]);
+  }
+  ids = kept_ids;
+  corners = kept;
+}
+
 }  // namespace
 
 std::vector<MarkerBits> charuco_markers(const Board& board) {
@@ -98,6 +151,7 @@ CharucoSeen find_charuco(ImageView8 grey, const Board& board) {
     std::vector<cv::Point2f> corners;
     std::vector<int> ids;
     cv::aruco::interpolateCornersCharuco(markers, marker_ids, image, charuco, corners, ids);
+    refine(image, board, ids, corners);
     std::vector<std::size_t> order(ids.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return ids[a] < ids[b]; });

@@ -2,6 +2,8 @@
 #include <facula/acquire/calibrate/board_detection.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
@@ -67,6 +69,14 @@ std::optional<GridSeen> find_any_circle_grid(ImageView8 grey, const Board& board
       if (static_cast<std::size_t>(cols * rows) == blobs.size()) sizes.emplace_back(cols, rows);
     }
   }
+  // 24 blobs may be 6 x 4 or 8 x 3: the shape most like the board's first.
+  const auto unlike = [&](const std::pair<int, int>& size) {
+    return std::abs(std::log(static_cast<double>(size.first) * board.rows /
+                             (static_cast<double>(size.second) * board.cols)));
+  };
+  std::sort(sizes.begin(), sizes.end(), [&](const auto& a, const auto& b) {
+    return unlike(a) < unlike(b);
+  });
   sizes.emplace_back(board.rows, board.cols);
   for (int less = 1; less <= 3; ++less) {
     sizes.emplace_back(board.cols - less, board.rows);

@@ -79,14 +79,14 @@ bool find_points(ImageView8 grey, const Board& board, BoardView& view) {
   return true;
 }
 
-/// Whether the board shows in a picture of half or a quarter of the size, where blur is smaller;
-/// then how wide its edges are in the full one [px].
+/// Whether the board shows in a picture of half, a quarter or an eighth of the size, where blur is
+/// smaller; then how wide its edges are in the full one [px].
 double blur_that_hides(ImageView8 grey, const Board& board, int image_width) {
   Image8 small = half_size(grey);
-  for (double scale = 2; scale <= 4; scale *= 2) {
+  for (double scale = 2; scale <= 8; scale *= 2) {
     BoardView view;
     view.image_width = image_width;
-    if (small.rows < 60 || small.cols < 60) return 0;
+    if (small.rows < 50 || small.cols < 50) return 0;
     if (find_points(small.view(), board, view)) {
       for (auto& p : view.pixels) p = scale * p + Eigen::Vector2d::Constant((scale - 1) / 2);
       return edge_width(grey, board, view);
@@ -147,9 +147,11 @@ std::string other_grid(ImageView8 grey, const Board& board) {
                             board.rows,
                             "; exchange them");
   }
-  return clause(other->cols,
+  // Which way round a stranger's rows run is open: say it as the board is said.
+  const bool turn = (other->cols > other->rows) != (board.cols > board.rows);
+  return clause(turn ? other->rows : other->cols,
                 " x ",
-                other->rows,
+                turn ? other->cols : other->rows,
                 " points instead of ",
                 board.cols,
                 " x ",
@@ -225,7 +227,7 @@ BoardView find_board(ImageView8 image, const Board& board, const std::string& na
   }
   view.sharpness = edge_width(shown->view(), board, view);
   view.clipped_share = clipped_share(channels.front().view(), view);
-  if (view.sharpness > 0.4 * pixels_per_pitch(board, view)) {
+  if (view.sharpness > 0.35 * pixels_per_pitch(board, view)) {
     view.failure = clause("blurred: edges ",
                           view.sharpness,
                           " px wide where the points lie ",

@@ -29,7 +29,7 @@ struct LaserLineView {
 struct BoardLineOptions {
   StripeOptions stripe;
   double margin = 0.4;  ///< how far beyond the outer points the board is searched [spacings]
-  double max_jump = 6;  ///< farthest from the line through its neighbours [px]
+  double max_jump = 6;  ///< farthest from the straight line that most of it lies on [px]
   void check() const;
 };
 

@@ -7,9 +7,10 @@
 
 namespace facula {
 
-void Rig::check() const {
+void Rig::check(RigParts needed) const {
   camera.check();
-  require(!lasers.empty() || range || profile_polynomial || profile_projection || two_line,
+  require(needed == RigParts::kCamera || !lasers.empty() || range || profile_polynomial ||
+              profile_projection || two_line,
           "rig '",
           name,
           "': expected at least one [[laser]], or a [range], [profile] or [two_line] calibration, "

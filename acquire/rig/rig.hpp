@@ -33,6 +33,12 @@ struct RigCovariance {
   Eigen::MatrixXd matrix;               ///< symmetric, one row and column per parameter
 };
 
+/// What a rig must hold to be used.
+enum class RigParts {
+  kWhole,  ///< camera and something that measures: a sheet of light, or a simpler calibration
+  kCamera  ///< a camera at least: the rest is still to be calibrated
+};
+
 /// A scanner head: camera, one or more sheets of light, and an axis. Lengths in metres here; in
 /// rig.toml the unit stands in the key (_mm, _deg, _px).
 struct Rig {
@@ -55,7 +61,7 @@ struct Rig {
   std::size_t light_count() const { return lasers.empty() && range ? 1 : lasers.size(); }
 
   /// Throws Error naming the first value that cannot be.
-  void check() const;
+  void check(RigParts needed = RigParts::kWhole) const;
 };
 
 }  // namespace facula

@@ -77,7 +77,7 @@ void write_vector(std::ostream& out, const char* key, const Eigen::Vector3d& v) 
   out << key << " = [" << v.x() << ", " << v.y() << ", " << v.z() << "]\n";
 }
 
-Rig rig_from_table(TomlTable table, const std::filesystem::path& path) {
+Rig rig_from_table(TomlTable table, const std::filesystem::path& path, RigParts needed) {
   Rig rig;
   rig.name = table.text_if("name").value_or(path.stem().string());
   rig.stripe_direction = read_direction(table);
@@ -90,7 +90,7 @@ Rig rig_from_table(TomlTable table, const std::filesystem::path& path) {
   read_simple_calibrations(table, rig);
   table.finish();
   try {
-    rig.check();
+    rig.check(needed);
   } catch (const Error& error) {
     fail(path.string(), ": ", error.what());
   }
@@ -99,16 +99,16 @@ Rig rig_from_table(TomlTable table, const std::filesystem::path& path) {
 
 }  // namespace
 
-Rig read_rig(const std::filesystem::path& path) {
-  return rig_from_table(TomlTable::from_file(path), path);
+Rig read_rig(const std::filesystem::path& path, RigParts needed) {
+  return rig_from_table(TomlTable::from_file(path), path, needed);
 }
 
 Rig parse_rig(const std::string& text, const std::string& source) {
-  return rig_from_table(TomlTable::from_text(text, source), source);
+  return rig_from_table(TomlTable::from_text(text, source), source, RigParts::kWhole);
 }
 
-std::string rig_text(const Rig& rig) {
-  rig.check();
+std::string rig_text(const Rig& rig, RigParts needed) {
+  rig.check(needed);
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(17);
@@ -135,8 +135,8 @@ std::string rig_text(const Rig& rig) {
   return out.str();
 }
 
-void write_rig(const std::filesystem::path& path, const Rig& rig) {
-  const std::string text = rig_text(rig);
+void write_rig(const std::filesystem::path& path, const Rig& rig, RigParts needed) {
+  const std::string text = rig_text(rig, needed);
   AtomicFile file(path);
   file.stream() << text;
   file.commit();

@@ -193,6 +193,14 @@ void Arguments::choice(const std::string& name,
   };
 }
 
+void Arguments::word(const std::string& name, std::string& target, const std::string& help) {
+  specs_.push_back(spec(name, "NAME", help, target));
+  specs_.back().set = [&target, name](const Words& words) {
+    if (words.front().empty()) fail_usage(name, ": expected a name, got an empty word; write one");
+    target = words.front();
+  };
+}
+
 void Arguments::flag(const std::string& name, bool& target, const std::string& help) {
   specs_.push_back(spec(name, "", help));
   specs_.back().words = 0;

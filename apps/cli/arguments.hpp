@@ -70,6 +70,8 @@ class Arguments {
               std::string& target,
               const std::vector<std::string>& allowed,
               const std::string& help);
+  /// A word of the user's own, such as a name.
+  void word(const std::string& name, std::string& target, const std::string& help);
   void flag(const std::string& name, bool& target, const std::string& help);
 
   /// The argument declared last must be given.

@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/apps/commands/calibrate_board.hpp>
+#include <facula/apps/commands/calibrate_camera.hpp>
+#include <facula/apps/commands/calibrate_compensation.hpp>
+#include <facula/apps/commands/calibrate_laser.hpp>
+#include <facula/apps/commands/calibrate_profile.hpp>
+#include <facula/apps/commands/calibrate_range.hpp>
+#include <facula/apps/commands/calibrate_two_line.hpp>
 #include <facula/apps/commands/commands.hpp>
 #include <facula/apps/commands/demo.hpp>
+#include <facula/apps/commands/design.hpp>
 #include <facula/apps/commands/extract.hpp>
 #include <facula/apps/commands/info.hpp>
 #include <facula/apps/commands/map.hpp>
 #include <facula/apps/commands/measure_planes.hpp>
+#include <facula/apps/commands/measure_two_line.hpp>
 #include <facula/apps/commands/mesh.hpp>
 #include <facula/apps/commands/register.hpp>
 #include <facula/apps/commands/report.hpp>
@@ -18,6 +27,15 @@ std::vector<Command> all_commands() {
           register_command(),
           mesh_command(),
           measure_planes_command(),
+          measure_two_line_command(),
+          calibrate_board_command(),
+          calibrate_camera_command(),
+          calibrate_laser_command(),
+          calibrate_range_command(),
+          calibrate_compensation_command(),
+          calibrate_profile_command(),
+          calibrate_two_line_command(),
+          design_command(),
           map_command(),
           info_command(),
           report_command(),
