@@ -22,6 +22,20 @@ void check_order(const Bound& least, const Bound& greatest, const char* what) {
 
 }  // namespace
 
+std::size_t frames_per_exposure(Alternation alternation) {
+  switch (alternation) {
+    case Alternation::kNone:
+      return 1;
+    case Alternation::kOnFirst:
+    case Alternation::kOffFirst:
+      return 2;
+    case Alternation::kOnOffOn:
+    case Alternation::kOffOnOff:
+      return 3;
+  }
+  return 1;
+}
+
 bool WorkVolume::contains(const Eigen::Vector3d& x_in_scan, double depth) const {
   if (max_radius && x_in_scan.head<2>().norm() > *max_radius) return false;
   if (min_z && x_in_scan.z() < *min_z) return false;

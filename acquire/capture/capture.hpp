@@ -2,6 +2,7 @@
 #pragma once
 
 #include <facula/acquire/rig/rig.hpp>
+#include <facula/acquire/stripe/background_match.hpp>
 #include <facula/acquire/stripe/stripe_detector.hpp>
 
 #include <cstddef>
@@ -38,12 +39,19 @@ struct ZeroLine {
 };
 
 /// How frames with and without the laser follow each other in one sequence. A last frame without
-/// its partner is left out.
+/// its partners is left out. Three frames per position tell what moved: the two of a kind were
+/// taken before and after the third, their mean stands for its moment, and where they differ
+/// nothing is measured (see moving_pixels.hpp).
 enum class Alternation {
-  kNone,     ///< `frames` holds lit frames only
-  kOnFirst,  ///< lit, dark, lit, dark, ...
-  kOffFirst  ///< dark, lit, dark, lit, ...
+  kNone,      ///< `frames` holds lit frames only
+  kOnFirst,   ///< lit, dark, lit, dark, ...
+  kOffFirst,  ///< dark, lit, dark, lit, ...
+  kOnOffOn,   ///< lit, dark, lit of every position: the mean of the lit ones less the dark one
+  kOffOnOff   ///< dark, lit, dark of every position: the lit one less the mean of the dark ones
 };
+
+/// Frames of one exposure at one position [1]: 1, 2 or 3.
+std::size_t frames_per_exposure(Alternation alternation);
 
 /// A recorded scan: which rig took it, its frames, and the axis position of every frame.
 struct Capture {
@@ -55,12 +63,18 @@ struct Capture {
   /// Laser off: empty, one image for all frames, one each, or a video with one each.
   std::vector<std::filesystem::path> background;
   Alternation alternation = Alternation::kNone;
-  std::vector<double> positions;  ///< of the axis, one per lit frame [rad or m]
+  Flicker flicker = Flicker::kIgnore;  ///< how a background is matched to its frame
+  /// Of the frames that follow one another at every position, merged per row (see bracket.hpp);
+  /// empty: one frame [ms].
+  std::vector<double> exposures;
+  std::vector<double> positions;  ///< of the axis, one per position of the head [rad or m]
   double frame_interval = 0;      ///< time between positions, 0 = unknown [s]
   StripeOptions stripe;
   WorkVolume volume;
   std::optional<ZeroLine> zero_line;
   RigidTransform world_from_scan;
+
+  std::size_t exposures_per_position() const { return exposures.empty() ? 1 : exposures.size(); }
 };
 
 }  // namespace facula

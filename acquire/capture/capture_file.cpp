@@ -8,8 +8,10 @@
 #include <facula/acquire/rig/rig_file.hpp>
 #include <facula/acquire/rig/toml_table.hpp>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace facula {
 namespace {
@@ -21,12 +23,45 @@ std::filesystem::path frames_base(TomlTable& table, const OptionalPath& frames_f
   return frames_folder.value_or(in_file);
 }
 
+constexpr std::array<std::pair<const char*, Alternation>, 5> kAlternations = {{
+    {"no", Alternation::kNone},
+    {"on-first", Alternation::kOnFirst},
+    {"off-first", Alternation::kOffFirst},
+    {"on-off-on", Alternation::kOnOffOn},
+    {"off-on-off", Alternation::kOffOnOff},
+}};
+
 Alternation read_alternation(TomlTable& table) {
   const std::string name = table.text_if("alternating").value_or("no");
-  if (name == "no") return Alternation::kNone;
-  if (name == "on-first") return Alternation::kOnFirst;
-  if (name == "off-first") return Alternation::kOffFirst;
-  fail(table.where("alternating"), ": expected no, on-first or off-first, got '", name, "'");
+  for (const auto& [known, alternation] : kAlternations) {
+    if (name == known) return alternation;
+  }
+  fail(table.where("alternating"),
+       ": expected no, on-first, off-first, on-off-on or off-on-off, got '",
+       name,
+       "'");
+}
+
+Flicker read_flicker(TomlTable& table, const Capture& capture) {
+  const auto name = table.text_if("flicker");
+  if (!name) return Flicker::kIgnore;
+  require(capture.alternation != Alternation::kNone || !capture.background.empty(),
+          table.where("flicker"),
+          ": there is no background to match; name one with 'off' or 'alternating'");
+  return flicker_from_name(*name);
+}
+
+std::vector<double> read_exposures(TomlTable& table) {
+  if (!table.has("exposures_ms")) return {};
+  const std::vector<double> exposures = table.numbers("exposures_ms");
+  require(!exposures.empty() && exposures.size() <= 16,
+          table.where("exposures_ms"),
+          ": expected 1 to 16 exposures, got ",
+          exposures.size());
+  for (const double exposure : exposures) {
+    require(exposure > 0, table.where("exposures_ms"), ": expected times above 0, got ", exposure);
+  }
+  return exposures;
 }
 
 void read_frames(TomlTable table, const OptionalPath& frames_folder, Capture& capture) {
@@ -37,6 +72,8 @@ void read_frames(TomlTable table, const OptionalPath& frames_folder, Capture& ca
   require(capture.alternation == Alternation::kNone || capture.background.empty(),
           table.where("off"),
           ": alternating frames bring their own background; drop one of the two");
+  capture.flicker = read_flicker(table, capture);
+  capture.exposures = read_exposures(table);
   capture.frame_interval = table.number_if("interval_s").value_or(0);
   require(capture.frame_interval >= 0,
           table.where("interval_s"),
@@ -108,10 +145,20 @@ void read_zero_line(TomlTable table, Capture& capture) {
   table.finish();
 }
 
-std::size_t lit_frame_count(const Capture& capture) {
+/// Axis positions that the frames were taken at.
+std::size_t position_count(const Capture& capture) {
   const std::size_t frames =
       capture.frames.size() == 1 ? open_frames(capture.frames)->size() : capture.frames.size();
-  return capture.alternation == Alternation::kNone ? frames : frames / 2;
+  const std::size_t each =
+      frames_per_exposure(capture.alternation) * capture.exposures_per_position();
+  require(capture.exposures.empty() || frames % each == 0,
+          capture.file.string(),
+          ": expected ",
+          each,
+          " frames per position, for every exposure in exposures_ms, got ",
+          frames,
+          " frames, which is no multiple of that");
+  return frames / each;
 }
 
 void check_counts(const Capture& capture, std::size_t lit) {
@@ -122,13 +169,18 @@ void check_counts(const Capture& capture, std::size_t lit) {
           " positions for ",
           lit,
           " frames; check [positions] and the pattern in [frames]");
-  require(capture.background.size() <= 1 || capture.background.size() == lit,
+  const std::size_t exposures = capture.exposures_per_position();
+  const std::size_t backgrounds = capture.background.size();
+  require(backgrounds <= 1 || backgrounds == exposures || backgrounds == lit * exposures,
           capture.file.string(),
           ": expected one background for all frames or one each, got ",
-          capture.background.size(),
+          backgrounds,
           " for ",
-          lit,
+          lit * exposures,
           " frames");
+  require(!capture.zero_line || exposures == 1,
+          capture.file.string(),
+          ": a zero_line has no exposures of its own; drop exposures_ms or the zero_line");
   require(!capture.zero_line || capture.zero_line->frames.size() == lit,
           capture.file.string(),
           ": expected one zero_line frame per position, got ",
@@ -182,7 +234,7 @@ Capture read_capture(const std::filesystem::path& path, const OptionalPath& fram
           capture.file.string(),
           ": zero_line frames need a table [zero_line] with bed_rows and bed_position_px");
   if (zero_line) read_zero_line(std::move(*zero_line), capture);
-  const std::size_t lit = lit_frame_count(capture);
+  const std::size_t lit = position_count(capture);
   read_positions(std::move(positions), lit, capture);
   check_counts(capture, lit);
   return capture;

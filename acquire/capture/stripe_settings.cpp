@@ -41,6 +41,9 @@ StripeOptions read_stripe_options(TomlTable table, StripeDirection direction) {
   options.max_width_ratio = table.number_if("max_width_ratio").value_or(options.max_width_ratio);
   options.min_run = table.integer_if("min_run").value_or(options.min_run);
   options.median_rows = table.integer_if("median_rows").value_or(options.median_rows);
+  options.max_candidates = table.integer_if("max_candidates").value_or(options.max_candidates);
+  if (const auto name = table.text_if("hue")) options.hue = hue_from_name(*name);
+  options.min_hue_share = table.number_if("min_hue_share").value_or(options.min_hue_share);
   options.region = read_region(table);
   table.finish();
   options.check();
@@ -56,7 +59,9 @@ void write_stripe_options(std::ostream& stream, const StripeOptions& options) {
       << to_string(options.channel) << "\"\nsigma_px = " << options.sigma
       << "\nmin_snr = " << options.min_snr << "\nmin_amplitude = " << options.min_amplitude
       << "\nmax_width_ratio = " << options.max_width_ratio << "\nmin_run = " << options.min_run
-      << "\nmedian_rows = " << options.median_rows << "\nregion_px = [" << region.x << ", "
+      << "\nmedian_rows = " << options.median_rows
+      << "\nmax_candidates = " << options.max_candidates << "\nhue = \"" << to_string(options.hue)
+      << "\"\nmin_hue_share = " << options.min_hue_share << "\nregion_px = [" << region.x << ", "
       << region.y << ", " << region.width << ", " << region.height << "]\n";
   stream << out.str();
 }

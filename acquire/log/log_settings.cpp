@@ -106,6 +106,7 @@ std::size_t laser_index(const Rig& rig, const std::string& name, const std::stri
 LoggedBackground background_of(const Capture& capture) {
   if (capture.alternation != Alternation::kNone) return LoggedBackground::kPerFrame;
   if (capture.background.empty()) return LoggedBackground::kNone;
+  if (capture.flicker != Flicker::kIgnore) return LoggedBackground::kPerFrame;
   const bool common = capture.background.size() == 1 && capture.positions.size() != 1;
   return common ? LoggedBackground::kCommon : LoggedBackground::kPerFrame;
 }

@@ -6,6 +6,7 @@
 #include <facula/acquire/stripe/line_kernels.hpp>
 #include <facula/acquire/stripe/locate.hpp>
 #include <facula/acquire/stripe/row_noise.hpp>
+#include <facula/acquire/stripe/search_area.hpp>
 #include <facula/acquire/stripe/stripe_choice.hpp>
 #include <facula/acquire/stripe/stripe_path.hpp>
 
@@ -32,6 +33,10 @@ struct Span {
   int end = 0;
 };
 
+bool has_gate(const StripeView& view) {
+  return view.gate != nullptr && !view.gate->empty();
+}
+
 /// Looks at single rows of one frame.
 class RowChooser {
  public:
@@ -41,10 +46,10 @@ class RowChooser {
         options_(options),
         kernels_(line_kernels(options.sigma)),
         detector_(make_detector(options)),
+        area_(search_area(signal.rows(), signal.cols(), options)),
         noise_(estimate_noise(signal)) {}
 
   float noise() const { return noise_; }
-  float curvature_norm() const { return kernels_.curvature_norm; }
 
   RowChoices choices_of_row(int r) const {
     RowChoices row;
@@ -57,7 +62,8 @@ class RowChooser {
       if (!found) continue;
       found->row_noise = located.row_noise;
       const bool kept = stands_out(*found, noise_, options_) && is_inside(*found, columns) &&
-                        !is_known(*found, row) && has_hue(*found, r);
+                        !is_known(*found, row) && has_hue(*found, r) &&
+                        !touches_movement(*found, r);
       if (kept) row.choices.push_back({peak, *found});
     }
     return row;
@@ -66,18 +72,11 @@ class RowChooser {
  private:
   /// The columns of a row that the region and the gate leave.
   Span columns_of(int r) const {
-    const bool transposed = options_.direction == StripeDirection::kPerColumn;
-    const ImageRegion& region = options_.region;
-    const int first_row = transposed ? region.x : region.y;
-    const int rows = transposed ? region.width : region.height;
-    if (r < first_row || (rows > 0 && r >= first_row + rows)) return {};
-    const int begin = transposed ? region.y : region.x;
-    const int cols = transposed ? region.height : region.width;
-    Span span = {begin, cols > 0 ? std::min(begin + cols, signal_.cols()) : signal_.cols()};
-    if (view_.gate == nullptr || view_.gate->empty()) return span;
+    if (r < area_.first || r >= area_.last) return {};
+    if (!has_gate(view_)) return {area_.begin, area_.end};
     const auto i = static_cast<std::size_t>(r);
-    return {std::max(span.begin, static_cast<int>(view_.gate->first[i])),
-            std::min(span.end, static_cast<int>(view_.gate->end[i]))};
+    return {std::max(area_.begin, static_cast<int>(view_.gate->first[i])),
+            std::min(area_.end, static_cast<int>(view_.gate->end[i]))};
   }
 
   static bool is_inside(const StripeCandidate& found, const Span& columns) {
@@ -99,11 +98,25 @@ class RowChooser {
     return hue_share(view_.frame, view_.background, place, options_.hue) >= options_.min_hue_share;
   }
 
+  /// Whether something moved in the pixels that the position is taken from.
+  bool touches_movement(const StripeCandidate& found, int r) const {
+    if (view_.moving.empty()) return false;
+    const int reach = static_cast<int>(std::ceil(3 * options_.sigma)) + 1;
+    const int middle = static_cast<int>(std::lround(found.position));
+    const bool transposed = options_.direction == StripeDirection::kPerColumn;
+    const int last = std::min(signal_.cols() - 1, middle + reach);
+    for (int c = std::max(0, middle - reach); c <= last; ++c) {
+      if ((transposed ? view_.moving.row(c)[r] : view_.moving.row(r)[c]) != 0) return true;
+    }
+    return false;
+  }
+
   const StripeSignal& signal_;
   const StripeView& view_;
   const StripeOptions& options_;
   LineKernels kernels_;
   std::unique_ptr<RowDetector> detector_;
+  SearchArea area_;
   float noise_;
 };
 
@@ -144,20 +157,50 @@ std::vector<int> path_through(const std::vector<RowChoices>& rows,
   return best_path(places, {.step = options.sigma + 1});
 }
 
-}  // namespace
-
-bool needs_choice(const StripeView& view, const StripeOptions& options) {
-  return options.max_candidates > 1 || options.hue != LaserHue::kAny ||
-         (view.gate != nullptr && !view.gate->empty());
+void check_view(const StripeView& view, std::size_t rows) {
+  require(!has_gate(view) || (view.gate->first.size() == rows && view.gate->end.size() == rows),
+          "expected a gate with one span for each of ",
+          rows,
+          " rows");
+  require(view.moving.empty() || (view.moving.rows == view.frame.rows &&
+                                  view.moving.cols == view.frame.cols && view.moving.channels == 1),
+          "expected moving pixels of the frame's size");
 }
+
+/// Where only a gate asks: the strongest peak of every row, in rows where that lies outside of the
+/// gate the strongest inside.
+StripeLocation locate_within(const ColumnGate& gate,
+                             const StripeSignal& signal,
+                             const StripeOptions& options) {
+  StripeLocation location = locate_stripe(signal, options);
+  const LineKernels kernels = line_kernels(options.sigma);
+  const SearchArea area = search_area(signal.rows(), signal.cols(), options);
+  for (std::size_t r = 0; r < location.size(); ++r) {
+    const int peak = location.peak[r];
+    if (peak < 0 || (peak >= gate.first[r] && peak < gate.end[r])) continue;
+    const LocatedRow located = locate_in_row(signal.row(static_cast<int>(r)),
+                                             kernels,
+                                             std::max(area.begin, static_cast<int>(gate.first[r])),
+                                             std::min(area.end, static_cast<int>(gate.end[r])),
+                                             1);
+    location.peak[r] = located.peaks.empty() ? -1 : located.peaks.front().column;
+    if (located.peaks.empty()) continue;
+    location.peak_per_noise[r] = located.peaks.front().response;
+    location.row_noise[r] = std::max(location.row_noise[r], located.row_noise);
+  }
+  return location;
+}
+
+}  // namespace
 
 StripeLocation choose_stripe(const StripeSignal& signal,
                              const StripeView& view,
                              const StripeOptions& options) {
   const auto count = static_cast<std::size_t>(signal.rows());
-  require(view.gate == nullptr || view.gate->empty() ||
-              (view.gate->first.size() == count && view.gate->end.size() == count),
-          "expected a gate with one span per row");
+  check_view(view, count);
+  if (!asks_for_choice(options) && view.moving.empty() && has_gate(view)) {
+    return locate_within(*view.gate, signal, options);
+  }
   const RowChooser chooser(signal, view, options);
   std::vector<RowChoices> rows(count);
   for (std::size_t r = 0; r < count; ++r) rows[r] = chooser.choices_of_row(static_cast<int>(r));
@@ -170,9 +213,26 @@ StripeLocation choose_stripe(const StripeSignal& signal,
     if (path[r] < 0) continue;
     const RowPeak& peak = rows[r].choices[static_cast<std::size_t>(path[r])].peak;
     location.peak[r] = peak.column;
-    location.peak_per_noise[r] = peak.response / chooser.curvature_norm();
+    location.peak_per_noise[r] = peak.response;
   }
   return location;
+}
+
+bool asks_for_choice(const StripeOptions& options) {
+  return options.max_candidates > 1 || options.hue != LaserHue::kAny;
+}
+
+bool needs_choice(const StripeView& view, const StripeOptions& options) {
+  return asks_for_choice(options) || has_gate(view) || !view.moving.empty();
+}
+
+StripeProfile detect_stripe(const StripeView& view, const StripeOptions& options) {
+  options.check();
+  require(!view.frame.empty(), "expected a frame with pixels, got an empty one");
+  if (!needs_choice(view, options)) return detect_stripe(view.frame, view.background, options);
+  const bool transposed = options.direction == StripeDirection::kPerColumn;
+  const StripeSignal signal(view.frame, view.background, options.channel, transposed);
+  return measure_stripe(signal, choose_stripe(signal, view, options), options);
 }
 
 }  // namespace facula

@@ -4,6 +4,7 @@
 #include <facula/acquire/core/image_view.hpp>
 #include <facula/acquire/rig/rig.hpp>
 #include <facula/acquire/stripe/channel.hpp>
+#include <facula/acquire/stripe/hue_gate.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -48,6 +49,10 @@ struct StripeOptions {
   int min_run = 4;             ///< rows a stripe must hang together, gaps of 2 allowed [1], 1 = any
   int median_rows = 1;         ///< positions become the median of so many rows: 1 = off, or 3
   ImageRegion region;          ///< [px]
+  int max_candidates = 1;      ///< places looked at per row, of which the best path along the
+                               ///< stripe takes one, 1 = the strongest, up to 8 [1]
+  LaserHue hue = LaserHue::kAny;  ///< candidates of another colour are dropped, see hue_gate.hpp
+  double min_hue_share = 0.3;     ///< least share of the laser's colour in their light, 0 to 1 [1]
 
   /// Throws Error naming the field, its value and its bound.
   void check() const;
@@ -72,6 +77,7 @@ struct StripeProfile {
 /// Finds the stripe in a frame. `background`, when not empty, is the same view without the laser
 /// and is subtracted. Frames may be grey or colour, both alike; see StripeOptions::channel. Throws
 /// Error on an empty frame, options out of range, or a background that does not fit the frame.
+/// With a gate or moving pixels: see stripe_choice.hpp.
 StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const StripeOptions& options);
 
 /// The detectors by the names people give them, the default first.

@@ -5,6 +5,7 @@
 #include <facula/acquire/triangulate/extract_scan.hpp>
 #include <facula/acquire/triangulate/logging_capture.hpp>
 #include <facula/acquire/triangulate/scan_builder.hpp>
+#include <facula/acquire/triangulate/sheet_gate.hpp>
 
 #include <memory>
 #include <mutex>
@@ -36,14 +37,15 @@ void check_capture(const Capture& capture, std::size_t frames) {
 ExtractResult extract_scan(const Capture& capture, const ExtractOptions& options) {
   const CaptureFrames frames(capture);
   check_capture(capture, frames.size());
+  const ColumnGate gate = sheet_gate(capture);
   std::unique_ptr<LoggingCapture> log;
-  if (!options.log.empty()) log = std::make_unique<LoggingCapture>(capture, frames, options);
+  if (!options.log.empty()) log = std::make_unique<LoggingCapture>(capture, frames, gate, options);
   ScanBuilder builder(log ? log->settings() : capture, frames.size(), options.num_threads);
 
   std::mutex progress_mutex;
   std::size_t done = 0;
   const auto extract_frame = [&](std::size_t i, std::size_t) {
-    builder.place(log ? log->measure(i) : measure_frame(capture, frames, i));
+    builder.place(log ? log->measure(i) : measure_frame(capture, frames, gate, i));
     const std::lock_guard lock(progress_mutex);
     if (options.progress) options.progress(++done, frames.size());
   };

@@ -23,9 +23,14 @@ Image8 common_background(const Capture& capture,
 
 LoggingCapture::LoggingCapture(const Capture& capture,
                                const CaptureFrames& frames,
+                               const ColumnGate& gate,
                                const ExtractOptions& options)
-    : capture_(capture), frames_(frames), at_(capture.positions.size()) {
-  const FrameImages first = read_images(capture, frames, 0);
+    : capture_(capture), frames_(frames), gate_(gate), at_(capture.positions.size()) {
+  require(frames.exposures() == 1,
+          "a stripe log keeps one exposure per position, and the capture has ",
+          frames.exposures(),
+          "; extract it without a log");
+  const CapturedFrame first = read_images(capture, frames, 0).scene;
   require(first.dark.empty() ||
               (first.dark.rows == first.lit.rows && first.dark.cols == first.lit.cols &&
                first.dark.channels == first.lit.channels),
@@ -85,7 +90,8 @@ MeasuredFrame LoggingCapture::measure(std::size_t i) {
   std::optional<LoggedFrame> frame = recorded(i);
   if (!frame) {
     if (before_ && at_[i]) ++dropped_;
-    const Bytes record = encode_frame(log_frame(capture_, frames_, i, header_.width), header_);
+    const Bytes record =
+        encode_frame(log_frame(capture_, frames_, gate_, i, header_.width), header_);
     writer_->append(record);
     ++appended_;
     frame = reread(record);

@@ -18,9 +18,11 @@ namespace facula {
 class LoggingCapture {
  public:
   /// Begins options.log or, with options.resume and a log of that name, continues it. Throws Error
-  /// where that log is of another recording. Both arguments must outlive it.
+  /// where that log is of another recording, or the capture has several exposures per position, of
+  /// which a log could keep only one. All but `options` must outlive it.
   LoggingCapture(const Capture& capture,
                  const CaptureFrames& frames,
+                 const ColumnGate& gate,
                  const ExtractOptions& options);
 
   /// The capture as the log tells it.
@@ -38,6 +40,7 @@ class LoggingCapture {
 
   const Capture& capture_;
   const CaptureFrames& frames_;
+  const ColumnGate& gate_;
   StripeLogHeader header_;
   Image8 dark_;  ///< common background, rows as in the log
   Capture settings_;

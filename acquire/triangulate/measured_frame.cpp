@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/stripe/bracket.hpp>
+#include <facula/acquire/stripe/stripe_choice.hpp>
 #include <facula/acquire/triangulate/measured_frame.hpp>
 #include <facula/acquire/triangulate/zero_line.hpp>
+
+#include <utility>
+#include <vector>
 
 namespace facula {
 namespace {
@@ -33,13 +38,33 @@ void move_onto_bed(const Capture& capture, const StripeProfile& bed, MeasuredFra
   }
 }
 
+StripeView view_of(const CapturedFrame& scene, const ColumnGate& gate) {
+  return {scene.lit.view(), scene.dark.view(), &gate, scene.moving.view()};
+}
+
+/// Merges the other exposures into a frame that was measured from the first.
+void merge_exposures(const Capture& capture,
+                     const CaptureFrames& frames,
+                     const ColumnGate& gate,
+                     MeasuredFrame& frame) {
+  std::vector<ExposedProfile> bracket = {{std::move(frame.profile), capture.exposures[0]}};
+  for (std::size_t e = 1; e < frames.exposures(); ++e) {
+    const FrameImages images = read_images(capture, frames, frame.index, e);
+    bracket.push_back(
+        {detect_stripe(view_of(images.scene, gate), capture.stripe), capture.exposures[e]});
+  }
+  frame.profile = merge_bracket(bracket);
+}
+
 }  // namespace
 
-FrameImages read_images(const Capture& capture, const CaptureFrames& frames, std::size_t i) {
+FrameImages read_images(const Capture& capture,
+                        const CaptureFrames& frames,
+                        std::size_t i,
+                        std::size_t exposure) {
   FrameImages images;
-  images.lit = frames.lit(i);
-  check_size(images.lit, capture, i);
-  images.dark = frames.dark(i);
+  images.scene = frames.read(i, exposure);
+  check_size(images.scene.lit, capture, i);
   if (capture.zero_line) {
     images.bed = read_image(capture.zero_line->frames[i]);
     check_size(images.bed, capture, i);
@@ -47,10 +72,14 @@ FrameImages read_images(const Capture& capture, const CaptureFrames& frames, std
   return images;
 }
 
-MeasuredFrame measure_frame(const Capture& capture, const CaptureFrames& frames, std::size_t i) {
-  const FrameImages images = read_images(capture, frames, i);
+MeasuredFrame measure_frame(const Capture& capture,
+                            const CaptureFrames& frames,
+                            const ColumnGate& gate,
+                            std::size_t i) {
   MeasuredFrame frame{.index = i, .position = capture.positions[i], .time = time_of(capture, i)};
-  frame.profile = detect_stripe(images.lit.view(), images.dark.view(), capture.stripe);
+  const FrameImages images = read_images(capture, frames, i);
+  frame.profile = detect_stripe(view_of(images.scene, gate), capture.stripe);
+  if (frames.exposures() > 1) merge_exposures(capture, frames, gate, frame);
   if (capture.zero_line) {
     move_onto_bed(capture, detect_stripe(images.bed.view(), {}, capture.stripe), frame);
   }
@@ -59,13 +88,14 @@ MeasuredFrame measure_frame(const Capture& capture, const CaptureFrames& frames,
 
 LoggedFrame log_frame(const Capture& capture,
                       const CaptureFrames& frames,
+                      const ColumnGate& gate,
                       std::size_t i,
                       int width) {
   const FrameImages images = read_images(capture, frames, i);
   LoggedFrame frame{.index = i, .position = capture.positions[i], .time = time_of(capture, i)};
-  frame.views.push_back(log_view({images.lit.view(), images.dark.view()}, capture.stripe, width));
+  frame.views.push_back(log_view(view_of(images.scene, gate), capture.stripe, width));
   if (capture.zero_line) {
-    frame.views.push_back(log_view({images.bed.view(), {}}, capture.stripe, width));
+    frame.views.push_back(log_view({images.bed.view()}, capture.stripe, width));
   }
   return frame;
 }

@@ -4,6 +4,7 @@
 #include <facula/acquire/capture/capture.hpp>
 #include <facula/acquire/capture/frame_source.hpp>
 #include <facula/acquire/log/logged_frame.hpp>
+#include <facula/acquire/stripe/column_gate.hpp>
 
 #include <cstddef>
 
@@ -20,20 +21,27 @@ struct MeasuredFrame {
 
 /// All images of one frame; what the capture does not have is empty.
 struct FrameImages {
-  Image8 lit;
-  Image8 dark;
+  CapturedFrame scene;
   Image8 bed;  ///< of the zero line
 };
 
 /// Throws Error when one cannot be read or is not of the camera's size.
-FrameImages read_images(const Capture& capture, const CaptureFrames& frames, std::size_t i);
+FrameImages read_images(const Capture& capture,
+                        const CaptureFrames& frames,
+                        std::size_t i,
+                        std::size_t exposure = 0);
 
-/// Measures frame i of a capture. Throws Error as read_images() and detect_stripe() do.
-MeasuredFrame measure_frame(const Capture& capture, const CaptureFrames& frames, std::size_t i);
+/// Measures frame i of a capture within the columns of `gate` (see sheet_gate.hpp), the exposures
+/// of a bracket merged. Throws Error as read_images() and detect_stripe() do.
+MeasuredFrame measure_frame(const Capture& capture,
+                            const CaptureFrames& frames,
+                            const ColumnGate& gate,
+                            std::size_t i);
 
 /// The record of frame i of a capture, its windows `width` wide [px].
 LoggedFrame log_frame(const Capture& capture,
                       const CaptureFrames& frames,
+                      const ColumnGate& gate,
                       std::size_t i,
                       int width);
 
