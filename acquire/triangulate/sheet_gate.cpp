@@ -11,14 +11,12 @@ namespace {
 
 constexpr int kStep = 16;  // columns between two looks; bounds are then found to the pixel [px]
 
-/// The bounds that do not depend on where the axis stands.
-WorkVolume lasting_volume(const Capture& capture) {
-  WorkVolume volume = capture.volume;
-  if (capture.rig.axis.kind != AxisKind::kLinear) return volume;
+/// Leaves the bounds that do not depend on where the axis stands.
+void keep_lasting(WorkVolume& volume, const Capture& capture) {
+  if (capture.rig.axis.kind != AxisKind::kLinear) return;
   volume.max_radius.reset();
   volume.min_z.reset();
   volume.max_z.reset();
-  return volume;
 }
 
 bool bounds_something(const WorkVolume& volume) {
@@ -30,8 +28,10 @@ class SheetInVolume {
  public:
   explicit SheetInVolume(const Capture& capture)
       : capture_(capture),
-        volume_(lasting_volume(capture)),
-        scan_from_camera_(capture.rig.axis.scan_from_camera_at(0)) {}
+        volume_(capture.volume),
+        scan_from_camera_(capture.rig.axis.scan_from_camera_at(0)) {
+    keep_lasting(volume_, capture);
+  }
 
   bool allows(int row, int column) const {
     const bool per_row = capture_.rig.stripe_direction == StripeDirection::kPerRow;
@@ -81,7 +81,9 @@ Span allowed_span(const SheetInVolume& sheet, int row, int cols, int step) {
 
 ColumnGate sheet_gate(const Capture& capture, double margin) {
   require(margin >= 0 && margin < 1e5, "sheet gate: expected a margin of 0 or more, got ", margin);
-  if (capture.zero_line || !bounds_something(lasting_volume(capture))) return {};
+  WorkVolume lasting = capture.volume;
+  keep_lasting(lasting, capture);
+  if (capture.zero_line || !bounds_something(lasting)) return {};
   const bool per_row = capture.rig.stripe_direction == StripeDirection::kPerRow;
   const Camera& camera = capture.rig.camera;
   const int rows = per_row ? camera.height : camera.width;
