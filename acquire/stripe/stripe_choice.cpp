@@ -235,4 +235,11 @@ StripeProfile detect_stripe(const StripeView& view, const StripeOptions& options
   return measure_stripe(signal, choose_stripe(signal, view, options), options);
 }
 
+StripeProfile detect_stripe(ImageView8 frame,
+                            ImageView8 background,
+                            const StripeOptions& options,
+                            const ColumnGate& gate) {
+  return detect_stripe(StripeView{frame, background, &gate}, options);
+}
+
 }  // namespace facula

@@ -4,6 +4,7 @@
 #include <facula/acquire/core/image_view.hpp>
 #include <facula/acquire/rig/rig.hpp>
 #include <facula/acquire/stripe/channel.hpp>
+#include <facula/acquire/stripe/column_gate.hpp>
 #include <facula/acquire/stripe/hue_gate.hpp>
 
 #include <cstddef>
@@ -77,8 +78,13 @@ struct StripeProfile {
 /// Finds the stripe in a frame. `background`, when not empty, is the same view without the laser
 /// and is subtracted. Frames may be grey or colour, both alike; see StripeOptions::channel. Throws
 /// Error on an empty frame, options out of range, or a background that does not fit the frame.
-/// With a gate or moving pixels: see stripe_choice.hpp.
 StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const StripeOptions& options);
+
+/// The same within the columns of `gate`; with more to say about the frame: see stripe_choice.hpp.
+StripeProfile detect_stripe(ImageView8 frame,
+                            ImageView8 background,
+                            const StripeOptions& options,
+                            const ColumnGate& gate);
 
 /// The detectors by the names people give them, the default first.
 std::vector<std::string> detector_names();
