@@ -21,7 +21,7 @@ struct RenderBoardOptions {
   double laser_level = 180;     ///< peak of the red line on white paper, over it [DN]
   double laser_on_black = 0.2;  ///< share of it on the print [1]
   double laser_width = 0.4e-3;  ///< of the line on the board, standard deviation [m]
-  int samples = 3;              ///< rays per pixel, along each side [1]
+  int samples = 2;              ///< rays per pixel, along each side [1]
   std::uint64_t seed = 1;
   int num_threads = 0;  ///< 0 = all cores [1]
   void check() const;
