@@ -46,14 +46,6 @@ namespace {
 
 constexpr std::uint64_t kAfterStream = std::numeric_limits<std::uint64_t>::max() / 4;
 
-void apply_speckle(Image<double>& laser,
-                   const SimulateOptions& options,
-                   const RigidTransform& world_from_camera) {
-  const Image<double> field = speckle_field(
-      laser.rows, laser.cols, *options.speckle, speckle_seed(options.seed, world_from_camera));
-  for (std::size_t i = 0; i < laser.pixels.size(); ++i) laser.pixels[i] *= field.pixels[i];
-}
-
 void add_laser(Image<double>& image, const Image<double>& laser, const Eigen::Vector3d& response) {
   double* out = image.pixels.data();
   for (const double light : laser.pixels) {
@@ -130,7 +122,10 @@ Image<double> FrameRenderer::expected_signal(const RigidTransform& world_from_ca
   spread_light(light.ambient, options_.lens);
   if (exposure.laser_on) {
     spread_light(light.laser, options_.lens);
-    if (options_.speckle) apply_speckle(light.laser, options_, world_from_camera);
+    if (options_.speckle) {
+      const std::uint64_t seed = speckle_seed(options_.seed, world_from_camera);
+      apply_speckle(light.laser, *options_.speckle, seed);
+    }
     add_laser(light.ambient, light.laser, laser_response(options_));
   }
   vignette(light.ambient, rays_, options_.lens.vignetting);

@@ -11,7 +11,8 @@
 namespace facula {
 namespace {
 
-constexpr double kMostFields = 64;  // beyond, contrast is under 1/8 and Gaussian anyway
+constexpr double kMostFields = 16;  // beyond, contrast is under 1/4: fewer fields, less deep
+constexpr double kDark = 1e-3;      // laser light that nobody could tell from none [DN]
 
 // Weights that add up to 1 and whose squares add up to 1 / count, count being any number from 1:
 // all but the last alike.
@@ -80,6 +81,27 @@ Image<double> speckle_field(int rows, int cols, const Speckle& speckle, std::uin
   }
   for (double& value : field.pixels) value = 1 + std::min(reach, 1.0) * (value - 1);
   return field;
+}
+
+void apply_speckle(Image<double>& laser, const Speckle& speckle, std::uint64_t seed) {
+  int top = laser.rows;
+  int bottom = 0;
+  int left = laser.cols;
+  int right = 0;
+  for (int r = 0; r < laser.rows; ++r) {
+    for (int c = 0; c < laser.cols; ++c) {
+      if (laser.row(r)[c] < kDark) continue;
+      top = std::min(top, r);
+      bottom = r + 1;
+      left = std::min(left, c);
+      right = std::max(right, c + 1);
+    }
+  }
+  if (bottom <= top) return;
+  const Image<double> field = speckle_field(bottom - top, right - left, speckle, seed);
+  for (int r = top; r < bottom; ++r) {
+    for (int c = left; c < right; ++c) laser.row(r)[c] *= field.row(r - top)[c - left];
+  }
 }
 
 std::uint64_t speckle_seed(std::uint64_t seed, const RigidTransform& world_from_camera) {
