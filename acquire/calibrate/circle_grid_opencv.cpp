@@ -24,6 +24,7 @@ std::vector<cv::Point2f> dark_blobs(ImageView8 grey) {
   std::vector<cv::KeyPoint> keys;
   cv::SimpleBlobDetector::create(params)->detect(image, keys);
   std::vector<cv::Point2f> centres;
+  centres.reserve(keys.size());
   for (const cv::KeyPoint& key : keys) centres.push_back(key.pt);
   return centres;
 }

@@ -55,7 +55,9 @@ class Renderer {
     double room_sum = 0;
     double red_sum = 0;
     for (int i = 0; i < n * n; ++i) {
-      const Eigen::Vector2d at(col - 0.5 + (i % n + 0.5) / n, row - 0.5 + (i / n + 0.5) / n);
+      const int across = i % n;
+      const int down = i / n;
+      const Eigen::Vector2d at(col - 0.5 + (across + 0.5) / n, row - 0.5 + (down + 0.5) / n);
       const auto here = meet(at);
       if (!here || !pattern_.covers(here->place)) {
         room_sum += options_.surroundings;
