@@ -2,6 +2,7 @@
 #include <facula/apps/commands/calibrate_board.hpp>
 #include <facula/apps/commands/calibrate_camera.hpp>
 #include <facula/apps/commands/calibrate_compensation.hpp>
+#include <facula/apps/commands/calibrate_joint.hpp>
 #include <facula/apps/commands/calibrate_laser.hpp>
 #include <facula/apps/commands/calibrate_profile.hpp>
 #include <facula/apps/commands/calibrate_range.hpp>
@@ -31,6 +32,9 @@ std::vector<Command> all_commands() {
           calibrate_board_command(),
           calibrate_camera_command(),
           calibrate_laser_command(),
+          calibrate_axis_command(),
+          calibrate_joint_command(),
+          calibrate_example_command(),
           calibrate_range_command(),
           calibrate_compensation_command(),
           calibrate_profile_command(),
