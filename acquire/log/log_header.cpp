@@ -21,7 +21,7 @@ std::string take_text(ByteReader& in, std::size_t size) {
 bool sizes_are_sane(const StripeLogHeader& h, std::uint32_t background) {
   return h.rows > 0 && h.rows <= 100000 && h.cols > 0 && h.cols < 65535 &&
          (h.channels == 1 || h.channels == 3) && h.width > 0 && h.width <= 254 &&
-         h.width <= h.cols && (h.views == 1 || h.views == 2) && background <= 2;
+         h.width <= h.cols && h.exposures >= 1 && h.exposures <= 8 && background <= 2;
 }
 
 }  // namespace
@@ -46,7 +46,8 @@ Bytes encode_header(const StripeLogHeader& header) {
   put(out, static_cast<std::uint32_t>(header.cols));
   put(out, static_cast<std::uint32_t>(header.channels));
   put(out, static_cast<std::uint32_t>(header.width));
-  put(out, static_cast<std::uint32_t>(header.views));
+  put(out, static_cast<std::uint32_t>(header.exposures));
+  put(out, static_cast<std::uint32_t>(header.bed ? 1 : 0));
   put(out, static_cast<std::uint32_t>(header.background));
   put(out, static_cast<std::uint64_t>(header.frames));
   put(out, static_cast<std::uint32_t>(header.rig.size()));
@@ -106,7 +107,8 @@ StripeLogHeader decode_header(ByteView bytes, const std::string& name) {
   h.cols = static_cast<int>(in.take<std::uint32_t>());
   h.channels = static_cast<int>(in.take<std::uint32_t>());
   h.width = static_cast<int>(in.take<std::uint32_t>());
-  h.views = static_cast<int>(in.take<std::uint32_t>());
+  h.exposures = static_cast<int>(in.take<std::uint32_t>());
+  h.bed = in.take<std::uint32_t>() != 0;
   const auto background = in.take<std::uint32_t>();
   h.background = static_cast<LoggedBackground>(background);
   h.frames = in.take<std::uint64_t>();

@@ -18,15 +18,19 @@ enum class LoggedBackground : std::uint32_t {
 
 /// What stands once at the start of a stripe log (docs/stripe_log.md has the bytes).
 struct StripeLogHeader {
-  int rows = 0;      ///< rows of the scan: frame rows, or columns of a stripe per column [px]
-  int cols = 0;      ///< pixels along such a row [px]
-  int channels = 1;  ///< 1 or 3 [1]
-  int width = 0;     ///< of the windows [px]
-  int views = 1;     ///< 2 where a bare bed was recorded with every frame (zero line) [1]
+  int rows = 0;       ///< rows of the scan: frame rows, or columns of a stripe per column [px]
+  int cols = 0;       ///< pixels along such a row [px]
+  int channels = 1;   ///< 1 or 3 [1]
+  int width = 0;      ///< of the windows [px]
+  int exposures = 1;  ///< of every frame, merged when measured, 1 to 8 [1]
+  bool bed = false;   ///< a bare bed was recorded with every frame (zero line)
   LoggedBackground background = LoggedBackground::kNone;
   std::size_t frames = 0;  ///< of the whole recording, 0 where nobody knows yet [1]
   std::string rig;         ///< text of rig.toml
   std::string settings;    ///< what capture.toml said, see log_settings.hpp
+
+  /// Images with windows of their own per frame: the exposures, then the bed [1].
+  int views() const { return exposures + (bed ? 1 : 0); }
 
   /// Bytes of one raw frame [1].
   std::size_t frame_bytes() const {
@@ -34,15 +38,16 @@ struct StripeLogHeader {
            static_cast<std::size_t>(channels);
   }
 
-  /// Bytes of all images that `count` frames came with, dark ones and bare bed included [1].
+  /// Bytes of the images that `count` frames were measured from, dark ones and bare bed included;
+  /// two images that were made one by their mean count as one [1].
   std::size_t raw_bytes(std::size_t count) const {
-    const int dark = background == LoggedBackground::kPerFrame ? 1 : 0;
+    const int dark = background == LoggedBackground::kPerFrame ? exposures : 0;
     const std::size_t common = background == LoggedBackground::kCommon ? 1 : 0;
-    return (static_cast<std::size_t>(views + dark) * count + common) * frame_bytes();
+    return (static_cast<std::size_t>(views() + dark) * count + common) * frame_bytes();
   }
 };
 
-inline constexpr std::size_t kFixedHeaderBytes = 60;  ///< before the texts
+inline constexpr std::size_t kFixedHeaderBytes = 64;  ///< before the texts
 
 /// The header's bytes with their checksum.
 Bytes encode_header(const StripeLogHeader& header);

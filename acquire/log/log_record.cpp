@@ -18,7 +18,7 @@ std::size_t longest_payload(RecordKind kind, const StripeLogHeader& h) {
   const std::size_t pixels =
       static_cast<std::size_t>(h.width) * static_cast<std::size_t>(h.channels);
   const std::size_t row = 7 + pixels * (h.background == LoggedBackground::kPerFrame ? 2 : 1);
-  return 16 + static_cast<std::size_t>(h.views) * (8 + static_cast<std::size_t>(h.rows) * row);
+  return 16 + static_cast<std::size_t>(h.views()) * (8 + static_cast<std::size_t>(h.rows) * row);
 }
 
 /// Puts the head in front of a payload that begins kRecordHeadBytes into `record`.
@@ -114,13 +114,14 @@ std::optional<LoggedView> take_view(ByteReader& in, bool with_dark, const Stripe
 }
 
 bool with_dark(const StripeLogHeader& header, std::size_t view) {
-  return view == 0 && header.background == LoggedBackground::kPerFrame;
+  return view < static_cast<std::size_t>(header.exposures) &&
+         header.background == LoggedBackground::kPerFrame;
 }
 
 void check_frame(const LoggedFrame& frame, const StripeLogHeader& header) {
-  require(frame.views.size() == static_cast<std::size_t>(header.views),
+  require(frame.views.size() == static_cast<std::size_t>(header.views()),
           "expected ",
-          header.views,
+          header.views(),
           " images per frame as the stripe log's header says, got ",
           frame.views.size());
   for (std::size_t v = 0; v < frame.views.size(); ++v) {
@@ -202,7 +203,7 @@ std::optional<LoggedFrame> decode_frame(const RecordHead& head,
   frame.index = head.index;
   frame.position = in.take<double>();
   frame.time = in.take<double>();
-  for (std::size_t v = 0; v < static_cast<std::size_t>(header.views); ++v) {
+  for (std::size_t v = 0; v < static_cast<std::size_t>(header.views()); ++v) {
     auto view = take_view(in, with_dark(header, v), header);
     if (!view) return std::nullopt;
     frame.views.push_back(std::move(*view));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/capture/frame_list.hpp>
 #include <facula/acquire/capture/stripe_settings.hpp>
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/whole_file.hpp>
@@ -30,6 +31,13 @@ void write_bound(std::ostream& out, const char* key, const std::optional<double>
   if (value) out << key << " = " << *value << "\n";
 }
 
+void write_exposures(std::ostream& out, const std::vector<double>& exposures) {
+  if (exposures.empty()) return;
+  out << "exposures_ms = [";
+  for (std::size_t e = 0; e < exposures.size(); ++e) out << (e == 0 ? "" : ", ") << exposures[e];
+  out << "]\n";
+}
+
 std::string settings_text(const Capture& capture) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
@@ -37,7 +45,9 @@ std::string settings_text(const Capture& capture) {
   const Rig& rig = capture.rig;
   out << "rig_name = " << std::quoted(rig.name)
       << "\nlaser = " << std::quoted(rig.lasers.empty() ? "" : rig.lasers[capture.laser].name)
-      << "\ninterval_s = " << capture.frame_interval << "\n\n";
+      << "\ninterval_s = " << capture.frame_interval << "\n";
+  write_exposures(out, capture.exposures);
+  out << "\n";
   write_stripe_options(out, capture.stripe);
   const WorkVolume& volume = capture.volume;
   out << "\n[volume]\n";
@@ -107,7 +117,8 @@ LoggedBackground background_of(const Capture& capture) {
   if (capture.alternation != Alternation::kNone) return LoggedBackground::kPerFrame;
   if (capture.background.empty()) return LoggedBackground::kNone;
   if (capture.flicker != Flicker::kIgnore) return LoggedBackground::kPerFrame;
-  const bool common = capture.background.size() == 1 && capture.positions.size() != 1;
+  const bool common = capture.background.size() == 1 && !is_video(capture.background[0]) &&
+                      capture.positions.size() != 1;
   return common ? LoggedBackground::kCommon : LoggedBackground::kPerFrame;
 }
 
@@ -121,7 +132,8 @@ StripeLogHeader header_of(const Capture& capture, int channels) {
   header.cols = per_row ? camera.width : camera.height;
   header.channels = channels;
   header.width = window_width(header.cols, channels);
-  header.views = capture.zero_line ? 2 : 1;
+  header.exposures = static_cast<int>(capture.exposures_per_position());
+  header.bed = capture.zero_line.has_value();
   header.background = background_of(capture);
   header.frames = capture.positions.size();
   header.rig = text_of_rig(capture);
@@ -137,6 +149,7 @@ Capture capture_of(const StripeLogHeader& header, const std::string& name) {
   capture.rig = parse_rig(header.rig, table.text("rig_name"));
   capture.laser = laser_index(capture.rig, table.text("laser"), name);
   capture.frame_interval = table.number("interval_s");
+  if (table.has("exposures_ms")) capture.exposures = table.numbers("exposures_ms");
   capture.stripe = read_stripe_options(table.table("stripe"), capture.rig.stripe_direction);
   capture.volume = read_volume(table.table("volume"));
   capture.world_from_scan = read_pose(table.table("pose"));
@@ -148,7 +161,8 @@ Capture capture_of(const StripeLogHeader& header, const std::string& name) {
   const Camera& camera = capture.rig.camera;
   require((per_row ? camera.height : camera.width) == header.rows &&
               (per_row ? camera.width : camera.height) == header.cols &&
-              capture.zero_line.has_value() == (header.views == 2),
+              capture.zero_line.has_value() == header.bed &&
+              capture.exposures_per_position() == static_cast<std::size_t>(header.exposures),
           "the header of the stripe log '",
           name,
           "' contradicts itself: its rig's camera is of another size than its frames; restore the "
@@ -178,11 +192,11 @@ void check_same_recording(const StripeLogHeader& found,
           " and ",
           wanted.channels,
           kAdvice);
-  require(found.settings == wanted.settings && found.views == wanted.views &&
-              found.background == wanted.background,
+  require(found.settings == wanted.settings && found.background == wanted.background,
           "the stripe log '",
           name,
-          "' was recorded with other settings than this capture's (line, volume, pose, background "
+          "' was recorded with other settings than this capture's (line, volume, pose, exposures, "
+          "background "
           "or zero line)",
           kAdvice);
   require(found.frames == wanted.frames,

@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace facula {
@@ -28,8 +29,10 @@ bool write_all(int file, ByteView bytes) {
 
 }  // namespace
 
-StripeLogWriter::StripeLogWriter(std::filesystem::path path, std::uint64_t size)
-    : path_(std::move(path)), bytes_(size) {
+StripeLogWriter::StripeLogWriter(std::filesystem::path path,
+                                 std::uint64_t keep,
+                                 std::uint64_t expected)
+    : path_(std::move(path)), bytes_(keep) {
   file_ = open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   require(file_ >= 0,
           "cannot append to the stripe log '",
@@ -37,13 +40,16 @@ StripeLogWriter::StripeLogWriter(std::filesystem::path path, std::uint64_t size)
           "': ",
           std::strerror(errno),
           "; check that it may be written");
-  if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+  struct stat now {};
+  const bool alone = flock(file_, LOCK_EX | LOCK_NB) == 0 && fstat(file_, &now) == 0 &&
+                     static_cast<std::uint64_t>(now.st_size) == expected;
+  if (!alone) {
     close(std::exchange(file_, -1));
     fail("the stripe log '",
          path_.string(),
          "' is being written by another program; wait until that has ended");
   }
-  if (ftruncate(file_, static_cast<off_t>(size)) != 0 || fdatasync(file_) != 0) {
+  if (ftruncate(file_, static_cast<off_t>(keep)) != 0 || fdatasync(file_) != 0) {
     const std::string reason = std::strerror(errno);
     close(std::exchange(file_, -1));
     fail("cannot cut the torn end off the stripe log '", path_.string(), "': ", reason);
@@ -74,12 +80,13 @@ StripeLogWriter StripeLogWriter::create(const std::filesystem::path& path,
   file.stream().write(reinterpret_cast<const char*>(start.data()),
                       static_cast<std::streamsize>(start.size()));
   file.commit();
-  return {path, start.size()};
+  return {path, start.size(), start.size()};
 }
 
 StripeLogWriter StripeLogWriter::resume(const std::filesystem::path& path,
-                                        std::uint64_t sound_bytes) {
-  return {path, sound_bytes};
+                                        std::uint64_t sound_bytes,
+                                        std::uint64_t read_bytes) {
+  return {path, sound_bytes, read_bytes};
 }
 
 void StripeLogWriter::append(const Bytes& record) {

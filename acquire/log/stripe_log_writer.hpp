@@ -21,9 +21,11 @@ class StripeLogWriter {
                                 const StripeLogHeader& header,
                                 ImageView8 common_background);
 
-  /// Continues a log that read_stripe_log() has read: cuts off all behind `sound_bytes`, the end of
-  /// its last whole record.
-  static StripeLogWriter resume(const std::filesystem::path& path, std::uint64_t sound_bytes);
+  /// Continues a log that was read up to `read_bytes`, its whole length then: cuts off all behind
+  /// `sound_bytes`, the end of its last whole record. Throws Error where it has grown since.
+  static StripeLogWriter resume(const std::filesystem::path& path,
+                                std::uint64_t sound_bytes,
+                                std::uint64_t read_bytes);
 
   StripeLogWriter(StripeLogWriter&& other) noexcept;
   StripeLogWriter& operator=(StripeLogWriter&&) = delete;
@@ -37,7 +39,7 @@ class StripeLogWriter {
   std::uint64_t bytes() const { return bytes_; }  ///< of the whole file
 
  private:
-  StripeLogWriter(std::filesystem::path path, std::uint64_t bytes);
+  StripeLogWriter(std::filesystem::path path, std::uint64_t keep, std::uint64_t expected);
 
   std::filesystem::path path_;
   int file_ = -1;

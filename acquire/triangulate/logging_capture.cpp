@@ -26,10 +26,6 @@ LoggingCapture::LoggingCapture(const Capture& capture,
                                const ColumnGate& gate,
                                const ExtractOptions& options)
     : capture_(capture), frames_(frames), gate_(gate), at_(capture.positions.size()) {
-  require(frames.exposures() == 1,
-          "a stripe log keeps one exposure per position, and the capture has ",
-          frames.exposures(),
-          "; extract it without a log");
   const CapturedFrame first = read_images(capture, frames, 0).scene;
   require(first.dark.empty() ||
               (first.dark.rows == first.lit.rows && first.dark.cols == first.lit.cols &&
@@ -57,7 +53,7 @@ LoggingCapture::LoggingCapture(const Capture& capture,
   check_same_recording(before_->header(), header_, options.log.string());
   for (std::size_t r = 0; r < before_->size(); ++r) at_[before_->frame_index(r)] = r;
   dropped_ = before_->damage().dropped_records;
-  writer_.emplace(StripeLogWriter::resume(options.log, before_->sound_bytes()));
+  writer_.emplace(StripeLogWriter::resume(options.log, before_->sound_bytes(), before_->bytes()));
 }
 
 std::optional<LoggedFrame> LoggingCapture::recorded(std::size_t i) const {

@@ -18,8 +18,7 @@ namespace facula {
 class LoggingCapture {
  public:
   /// Begins options.log or, with options.resume and a log of that name, continues it. Throws Error
-  /// where that log is of another recording, or the capture has several exposures per position, of
-  /// which a log could keep only one. All but `options` must outlive it.
+  /// where that log is of another recording. All but `options` must outlive it.
   LoggingCapture(const Capture& capture,
                  const CaptureFrames& frames,
                  const ColumnGate& gate,

@@ -49,21 +49,18 @@ void merge_exposures(const Capture& capture,
                      MeasuredFrame& frame) {
   std::vector<ExposedProfile> bracket = {{std::move(frame.profile), capture.exposures[0]}};
   for (std::size_t e = 1; e < frames.exposures(); ++e) {
-    const FrameImages images = read_images(capture, frames, frame.index, e);
-    bracket.push_back(
-        {detect_stripe(view_of(images.scene, gate), capture.stripe), capture.exposures[e]});
+    const CapturedFrame scene = frames.read(frame.index, e);
+    check_size(scene.lit, capture, frame.index);
+    bracket.push_back({detect_stripe(view_of(scene, gate), capture.stripe), capture.exposures[e]});
   }
   frame.profile = merge_bracket(bracket);
 }
 
 }  // namespace
 
-FrameImages read_images(const Capture& capture,
-                        const CaptureFrames& frames,
-                        std::size_t i,
-                        std::size_t exposure) {
+FrameImages read_images(const Capture& capture, const CaptureFrames& frames, std::size_t i) {
   FrameImages images;
-  images.scene = frames.read(i, exposure);
+  images.scene = frames.read(i);
   check_size(images.scene.lit, capture, i);
   if (capture.zero_line) {
     images.bed = read_image(capture.zero_line->frames[i]);
@@ -94,6 +91,11 @@ LoggedFrame log_frame(const Capture& capture,
   const FrameImages images = read_images(capture, frames, i);
   LoggedFrame frame{.index = i, .position = capture.positions[i], .time = time_of(capture, i)};
   frame.views.push_back(log_view(view_of(images.scene, gate), capture.stripe, width));
+  for (std::size_t e = 1; e < frames.exposures(); ++e) {
+    const CapturedFrame scene = frames.read(i, e);
+    check_size(scene.lit, capture, i);
+    frame.views.push_back(log_view(view_of(scene, gate), capture.stripe, width));
+  }
   if (capture.zero_line) {
     frame.views.push_back(log_view({images.bed.view()}, capture.stripe, width));
   }
@@ -105,10 +107,18 @@ MeasuredFrame measure_logged(const LoggedFrame& logged_frame,
                              const Capture& capture) {
   MeasuredFrame frame{
       .index = logged_frame.index, .position = logged_frame.position, .time = logged_frame.time};
-  frame.profile = measure_view(logged_frame.views[0], logged, capture.stripe);
-  if (capture.zero_line) {
-    move_onto_bed(capture, measure_view(logged_frame.views[1], logged, capture.stripe), frame);
+  const auto profile = [&](std::size_t view) {
+    return measure_view(logged_frame.views[view], logged, capture.stripe);
+  };
+  frame.profile = profile(0);
+  const std::size_t exposures = capture.exposures_per_position();
+  if (exposures > 1) {
+    std::vector<ExposedProfile> bracket = {{std::move(frame.profile), capture.exposures[0]}};
+    for (std::size_t e = 1; e < exposures; ++e)
+      bracket.push_back({profile(e), capture.exposures[e]});
+    frame.profile = merge_bracket(bracket);
   }
+  if (capture.zero_line) move_onto_bed(capture, profile(exposures), frame);
   return frame;
 }
 

@@ -19,17 +19,15 @@ struct MeasuredFrame {
   double bed_shift = 0;   ///< of that [px]
 };
 
-/// All images of one frame; what the capture does not have is empty.
+/// The images of one frame, of several exposures the first; what the capture does not have is
+/// empty.
 struct FrameImages {
   CapturedFrame scene;
   Image8 bed;  ///< of the zero line
 };
 
 /// Throws Error when one cannot be read or is not of the camera's size.
-FrameImages read_images(const Capture& capture,
-                        const CaptureFrames& frames,
-                        std::size_t i,
-                        std::size_t exposure = 0);
+FrameImages read_images(const Capture& capture, const CaptureFrames& frames, std::size_t i);
 
 /// Measures frame i of a capture within the columns of `gate` (see sheet_gate.hpp), the exposures
 /// of a bracket merged. Throws Error as read_images() and detect_stripe() do.

@@ -83,7 +83,7 @@ TEST_F(DamagedLog, IsCalledByWhatIsWrongWithIt) {
 
 TEST_F(DamagedLog, WithoutAnyRecordSaysThatNothingWasRecorded) {
   const StripeLogReader whole(*folder_ / "scan.flog");
-  const std::size_t header = bytes_->size() - (whole.bytes() - 60 - whole.header().rig.size() -
+  const std::size_t header = bytes_->size() - (whole.bytes() - 64 - whole.header().rig.size() -
                                                whole.header().settings.size());
   const StripeLogReader log(write(bytes_->substr(0, header)));
   EXPECT_EQ(log.size(), 0U);
@@ -104,7 +104,7 @@ TEST_F(DamagedLog, WithATornTailLosesTheLastFrameAndSaysSo) {
 
 TEST_F(DamagedLog, FindsTheNextRecordBehindADamagedHead) {
   const StripeLogReader whole(*folder_ / "scan.flog");
-  const std::size_t header = 60 + whole.header().rig.size() + whole.header().settings.size();
+  const std::size_t header = 64 + whole.header().rig.size() + whole.header().settings.size();
   for (const std::size_t byte : {0U, 9U, 17U, 25U}) {
     std::string bytes = *bytes_;
     bytes[header + byte] = static_cast<char>(bytes[header + byte] ^ 0x40);

@@ -75,6 +75,31 @@ TEST_F(StripeLog, KeepsTheBareBedOfAZeroLine) {
   EXPECT_EQ(again.zero_line_shift, whole.zero_line_shift);
 }
 
+/// Two exposures at every position, each lit, dark, lit: a log keeps what they were merged from.
+TEST_F(StripeLog, KeepsEveryExposureOfABracket) {
+  const Capture single = logged_wall(folder_ / "run", 12, true);
+  Capture capture = single;
+  capture.frames.clear();
+  capture.background.clear();
+  for (std::size_t i = 0; i < 12; i += 2) {
+    for (const std::size_t exposure : {i, i + 1}) {
+      capture.frames.push_back(single.frames[exposure]);
+      capture.frames.push_back(single.background[exposure]);
+      capture.frames.push_back(single.frames[exposure]);
+    }
+  }
+  capture.alternation = Alternation::kOnOffOn;
+  capture.exposures = {5.0, 2.5};
+  capture.positions.resize(6);
+  const ExtractResult whole = extract_scan(capture);
+  const ExtractResult logged = extract(capture);
+  ASSERT_GT(whole.scan.valid_count(), 500U);
+  EXPECT_TRUE(is_same_scan(logged.scan, whole.scan));
+  const StripeLogReader log(folder_ / "scan.flog");
+  EXPECT_EQ(log.header().exposures, 2);
+  EXPECT_TRUE(is_same_scan(extract_scan(log, log.settings()).scan, logged.scan));
+}
+
 /// A rig made in memory has no file whose bytes could be kept; its numbers survive as text.
 TEST_F(StripeLog, ComputesTheScanFromTheRigItStores) {
   Capture capture = logged_wall(folder_ / "run", 3);
@@ -196,6 +221,7 @@ TEST_F(StripeLog, TakesAtMostTwelvePercentOfTheRawFrames) {
     std::filesystem::remove(folder_ / "scan.flog");
     const ExtractResult result = extract(capture);
     ASSERT_GT(result.stripes_seen, 4U * 470U);
+    EXPECT_TRUE(is_same_scan(result.scan, extract_scan(capture).scan)) << channels;
     EXPECT_EQ(result.log->raw_bytes, 4U * 640U * 480U * static_cast<unsigned>(channels));
     EXPECT_LE(static_cast<double>(result.log->bytes),
               0.12 * static_cast<double>(result.log->raw_bytes));
