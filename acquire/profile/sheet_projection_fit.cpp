@@ -135,6 +135,7 @@ SheetProjection solve(const std::vector<SheetPoint>& points) {
   const Eigen::Matrix3d from_sheet = normalisation(sheet);
   const Eigen::Matrix3d from_image = normalisation(image);
   std::vector<SheetPoint> normalised;
+  normalised.reserve(points.size());
   for (const SheetPoint& p : points) {
     normalised.push_back({(from_sheet * p.in_sheet.homogeneous()).hnormalized(),
                           (from_image * p.pixel.homogeneous()).hnormalized()});

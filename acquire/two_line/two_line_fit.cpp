@@ -63,6 +63,7 @@ TwoLineFit fit_parallel(const std::vector<TwoLinePoint>& points) {
 /// distance = -spacing / (divergence - separation).
 TwoLineFit fit_drifting(const std::vector<TwoLinePoint>& points) {
   std::vector<RangePoint> range_points;
+  range_points.reserve(points.size());
   for (const TwoLinePoint& p : points) range_points.push_back({p.separation, p.distance});
   const RangeFit range = fit_range(range_points, {.centre = 0});
   require(range.model.slope < 0,

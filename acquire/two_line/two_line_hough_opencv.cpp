@@ -12,11 +12,11 @@ namespace facula {
 namespace {
 
 cv::Mat grey_of(ImageView8 image) {
-  const cv::Mat whole(image.rows,
-                      image.cols,
-                      image.channels == 3 ? CV_8UC3 : CV_8UC1,
-                      const_cast<std::uint8_t*>(image.data),
-                      static_cast<std::size_t>(image.stride));
+  cv::Mat whole(image.rows,
+                image.cols,
+                image.channels == 3 ? CV_8UC3 : CV_8UC1,
+                const_cast<std::uint8_t*>(image.data),
+                static_cast<std::size_t>(image.stride));
   if (image.channels == 1) return whole;
   cv::Mat grey;
   cv::cvtColor(whole, grey, cv::COLOR_BGR2GRAY);
