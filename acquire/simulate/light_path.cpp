@@ -89,6 +89,7 @@ std::vector<LightPath> light_paths(const std::vector<LaserFan>& fans,
                                    const std::vector<MirrorFace>& mirrors,
                                    const RigidTransform& world_from_camera) {
   std::vector<LightPath> paths;
+  paths.reserve(fans.size() * (1 + mirrors.size()));
   for (const LaserFan& fan : fans) {
     paths.push_back({fan, world_from_camera * fan.origin, std::nullopt});
   }
