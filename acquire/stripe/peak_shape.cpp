@@ -91,11 +91,12 @@ std::optional<StripeCandidate> describe_peak(const SignalRow& row, const PeakSha
   return found;
 }
 
-void measure_misfit(const SignalRow& row, StripeCandidate& found) {
+void measure_misfit(const SignalRow& row, StripeCandidate& found, double most_reach) {
   const double width = std::clamp(static_cast<double>(found.width), 0.5, 1.0 * row.end);
   const double position = static_cast<double>(found.position);
-  const int first = std::max(row.begin, static_cast<int>(std::ceil(position - 3 * width)));
-  const int last = std::min(row.end - 1, static_cast<int>(std::floor(position + 3 * width)));
+  const double reach = std::min(3 * width, most_reach);
+  const int first = std::max(row.begin, static_cast<int>(std::ceil(position - reach)));
+  const int last = std::min(row.end - 1, static_cast<int>(std::floor(position + reach)));
   const int count = last - first + 1;
   if (count <= 4) return;
   const auto basis = [&](int c) {

@@ -46,7 +46,8 @@ std::optional<StripeCandidate> describe_peak(const SignalRow& row, const PeakSha
 
 /// Mean square that a Gaussian line leaves over +-3 widths about the candidate, after level,
 /// height, place and width were fitted to first order (Gauss-Newton, one step): misplacing the
-/// candidate by part of a pixel does not count as misfit.
-void measure_misfit(const SignalRow& row, StripeCandidate& found);
+/// candidate by part of a pixel does not count as misfit. Looks at most `most_reach` px to both
+/// sides.
+void measure_misfit(const SignalRow& row, StripeCandidate& found, double most_reach = 1e6);
 
 }  // namespace facula
