@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <facula/acquire/core/error.hpp>
 #include <facula/acquire/stripe/blais_rioux.hpp>
 #include <facula/acquire/stripe/detector_table.hpp>
 #include <facula/acquire/stripe/peak_shape.hpp>
@@ -9,7 +8,6 @@
 #include <facula/tests/support/matchers.hpp>
 
 #include <cmath>
-#include <memory>
 #include <string>
 #include <utility>
 
