@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/stripe/channel.hpp>
+#include <facula/acquire/stripe/channel_value.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace facula {
@@ -21,46 +21,19 @@ constexpr std::array<std::pair<Channel, const char*>, 8> kNames = {{
     {Channel::kMaximum, "maximum"},
 }};
 
-float grey(float b, float g, float r) {
-  return 0.114F * b + 0.587F * g + 0.299F * r;
-}
-
 /// Calls write(column, value) for every pixel of a row, the colour formula chosen once per row.
-template <typename Write>
-void read_row(const std::uint8_t* pixels, int cols, Channel channel, const Write& write) {
-  const auto each = [&](const auto& value) {
-    for (int c = 0; c < cols; ++c, pixels += 3) {
-      write(c,
-            value(static_cast<float>(pixels[0]),
-                  static_cast<float>(pixels[1]),
-                  static_cast<float>(pixels[2])));
-    }
-  };
-  switch (channel) {
-    case Channel::kGrey:
-      return each(grey);
-    case Channel::kRed:
-      return each([](float, float, float r) { return r; });
-    case Channel::kGreen:
-      return each([](float, float g, float) { return g; });
-    case Channel::kBlue:
-      return each([](float b, float, float) { return b; });
-    case Channel::kRedExcess:
-      return each([](float b, float g, float r) { return r - std::max(g, b); });
-    case Channel::kGreenExcess:
-      return each([](float b, float g, float r) { return g - std::max(r, b); });
-    case Channel::kBlueExcess:
-      return each([](float b, float g, float r) { return b - std::max(r, g); });
-    case Channel::kMaximum:
-      return each([](float b, float g, float r) { return std::max({r, g, b}); });
-  }
-}
-
 template <typename Write>
 void read_any_row(ImageView8 frame, int r, Channel channel, const Write& write) {
   const std::uint8_t* pixels = frame.row(r);
-  if (frame.channels == 3) return read_row(pixels, frame.cols, channel, write);
-  for (int c = 0; c < frame.cols; ++c) write(c, static_cast<float>(pixels[c]));
+  if (frame.channels != 3) {
+    for (int c = 0; c < frame.cols; ++c) write(c, int{pixels[c]});
+    return;
+  }
+  with_channel(channel, [&]<Channel kChannel>() {
+    for (int c = 0; c < frame.cols; ++c, pixels += 3) {
+      write(c, channel_value<kChannel>(pixels[0], pixels[1], pixels[2]));
+    }
+  });
 }
 
 void check_channels(ImageView8 frame) {
@@ -93,17 +66,16 @@ Image8 extract_channel(ImageView8 frame, Channel channel) {
   Image8 result(frame.rows, frame.cols);
   for (int r = 0; r < frame.rows; ++r) {
     std::uint8_t* out = result.row(r);
-    read_any_row(frame, r, channel, [&](int c, float value) {
-      out[c] = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 255.0F)));
+    read_any_row(frame, r, channel, [&](int c, int value) {
+      out[c] = static_cast<std::uint8_t>(std::clamp(value, 0, 255));
     });
   }
   return result;
 }
 
 void read_channel_row(ImageView8 frame, int r, Channel channel, std::int16_t* values) {
-  read_any_row(frame, r, channel, [&](int c, float value) {
-    values[c] = static_cast<std::int16_t>(std::lround(value));
-  });
+  read_any_row(
+      frame, r, channel, [&](int c, int value) { values[c] = static_cast<std::int16_t>(value); });
 }
 
 }  // namespace facula

@@ -12,7 +12,7 @@ namespace facula {
 
 /// Which number is made of a colour pixel.
 enum class Channel {
-  kGrey,         ///< 0.299 R + 0.587 G + 0.114 B (ITU-R BT.601)
+  kGrey,         ///< 0.299 R + 0.587 G + 0.114 B (ITU-R BT.601), the weights in 256ths
   kRed,          ///< R
   kGreen,        ///< G
   kBlue,         ///< B
@@ -30,7 +30,7 @@ std::string to_string(Channel channel);
 /// for any other number of channels than 1 or 3.
 Image8 extract_channel(ImageView8 frame, Channel channel);
 
-/// Reads one row of a grey or 3-colour frame as `channel`, signed and rounded to whole DN.
+/// Reads one row of a grey or 3-colour frame as `channel`, signed, in whole DN.
 void read_channel_row(ImageView8 frame, int r, Channel channel, std::int16_t* values);
 
 }  // namespace facula

@@ -48,8 +48,8 @@ HWY_INLINE VWords MulPairs(VWords a, VWords b) {
   return hn::ReorderWidenMulAccumulate(
       Words(), hn::BitCast(d16, a), hn::BitCast(d16, b), unused, unused);
 #else
-  const auto lower = hn::Mul(hn::ShiftRight<16>(hn::ShiftLeft<16>(a)),
-                             hn::ShiftRight<16>(hn::ShiftLeft<16>(b)));
+  const auto lower =
+      hn::Mul(hn::ShiftRight<16>(hn::ShiftLeft<16>(a)), hn::ShiftRight<16>(hn::ShiftLeft<16>(b)));
   return hn::Add(lower, hn::Mul(hn::ShiftRight<16>(a), hn::ShiftRight<16>(b)));
 #endif
 }
@@ -95,53 +95,57 @@ HWY_INLINE VFloats ExpNearZero(VFloats x) {
 /// One vector of rows: their pixels by pairs of columns, about the peaks.
 class FirRows {
  public:
-  FirRows(const StripePlan& plan, const VWords* pairs) : plan_(plan), s_(plan.shape), pairs_(pairs) {}
+  FirRows(const StripePlan& plan, const VWords* pairs)
+      : plan_(plan), s_(plan.shape), pairs_(pairs) {}
 
   /// FirZeroCrossing::measure() for rows q on.
   template <typename Value>
   HWY_INLINE void Measure(int q, MeasureBatch<Value>& batch) {
     const Floats d;
     FindCrossing();
-    const auto level = hn::Mul(hn::ConvertTo(d, Weighed(pairs_, plan_.beside)),
-                               Number(s_.per_background_pixel));
+    const auto level =
+        hn::Mul(hn::ConvertTo(d, Weighed(pairs_, plan_.beside)), Number(s_.per_background_pixel));
     const auto smooth = hn::ConvertTo(d, Weighed(pairs_, plan_.smooth));
     const auto height = hn::Sub(hn::Mul(smooth, Number(s_.smooth_unit)), level);
     const auto curved = hn::ConvertTo(d, Weighed(pairs_, plan_.curvature));
     const auto bend = hn::Mul(curved, Number(s_.bend_unit));
     found_ = hn::And(found_, hn::Gt(bend, hn::Zero(d)));
 
-    const auto d0 = hn::Add(left_, share_);
-    const auto ratio = hn::Div(height, bend);
+    const auto drop = hn::Sub(left_, right_);
+    const auto per_both = hn::Div(Number(1), hn::Mul(drop, bend));
+    const auto t = hn::Mul(hn::Mul(left_, bend), per_both);
+    const auto d0 = hn::Add(from_, t);
+    const auto ratio = hn::Mul(hn::Mul(height, drop), per_both);
     const auto four = hn::Mul(hn::Mul(Number(4), ratio), hn::Mul(d0, d0));
     const auto root = hn::Sqrt(AtLeastZero(hn::Sub(hn::Mul(ratio, ratio), four)));
     const auto variance = hn::Mul(Number(0.5F), hn::Add(ratio, root));
     found_ = hn::And(found_, hn::Gt(variance, hn::Zero(d)));
 
     const auto inverse = hn::Div(Number(1), variance);
-    const auto cubic = hn::Mul(hn::Mul(share_, hn::Sub(Number(1), share_)),
-                               hn::Sub(Number(1), hn::Mul(Number(2), share_)));
+    const auto cubic =
+        hn::Mul(hn::Mul(t, hn::Sub(Number(1), t)), hn::Sub(Number(1), hn::Mul(Number(2), t)));
     off_ = hn::Sub(d0, hn::Mul(hn::Mul(Number(0.5F), inverse), cubic));
     const auto off2 = hn::Mul(off_, off_);
-    const auto top =
-        hn::Mul(height, ExpNearZero(hn::Mul(hn::Mul(Number(0.5F), off2), inverse)));
+    const auto top = hn::Mul(height, ExpNearZero(hn::Mul(hn::Mul(Number(0.5F), off2), inverse)));
     const auto top_bend = hn::Mul(top, inverse);
     const auto width2 = AtLeastZero(hn::Sub(variance, Number(s_.sigma2)));
-    const auto per_height = hn::Sqrt(hn::Div(variance, width2));
+    const auto drawn2 = hn::Max(Number(s_.least_width2), width2);
+    const auto wider2 = hn::Add(drawn2, Number(0.5F * s_.sigma2));
+    const auto area = hn::Mul(drawn2, wider2);
+    const auto per_all = hn::Div(Number(1), hn::Mul(area, top_bend));
+    const auto per_width2 = hn::Mul(hn::Mul(wider2, top_bend), per_all);
+    const auto share = hn::Mul(hn::Mul(hn::Mul(drawn2, drawn2), top_bend), per_all);
+    const auto amplitude = hn::Mul(top, hn::Sqrt(hn::Mul(variance, per_width2)));
     const auto peak = hn::ConvertTo(d, hn::Load(Words(), batch.column + q));
     hn::Store(hn::Add(peak, off_), d, batch.position + q);
     hn::Store(level, d, batch.background + q);
     hn::Store(hn::Sqrt(width2), d, batch.width + q);
-    hn::Store(hn::IfThenElseZero(hn::Gt(width2, hn::Zero(d)), hn::Mul(top, per_height)),
-              d,
-              batch.amplitude + q);
+    hn::Store(hn::IfThenElseZero(hn::Gt(width2, hn::Zero(d)), amplitude), d, batch.amplitude + q);
     hn::Store(top_bend, d, batch.top_bend + q);
     hn::Store(hn::Mul(top_bend, Number(s_.per_bend_noise)), d, batch.snr_per_noise + q);
-    hn::Store(hn::Div(Number(s_.slope_noise), top_bend), d, batch.sigma_per_noise + q);
-
-    const auto per_width2 = hn::Div(Number(1), hn::Max(Number(s_.least_width2), width2));
-    const auto spread =
-        hn::Add(Number(1), hn::Mul(hn::Mul(Number(0.5F), Number(s_.sigma2)), per_width2));
-    hn::Store(hn::Div(Number(1), hn::Mul(spread, hn::Sqrt(spread))), d, batch.position_share + q);
+    const auto sigma = hn::Mul(hn::Mul(Number(s_.slope_noise), area), per_all);
+    hn::Store(sigma, d, batch.sigma_per_noise + q);
+    hn::Store(hn::Mul(share, hn::Sqrt(share)), d, batch.position_share + q);
     MeasureMisfit(hn::Mul(Number(0.5F), per_width2), q, batch);
     const Words words;
     hn::Store(hn::BitCast(words, hn::VecFromMask(d, found_)), words, batch.found + q);
@@ -157,7 +161,7 @@ class FirRows {
     auto from = hn::Zero(d);
     auto to = hn::Zero(d);
     auto column = hn::Zero(d);
-    auto found = hn::Lt(from, to);  // nowhere
+    auto found = hn::Lt(from, to);      // nowhere
     for (const int i : {3, 0, 2, 1}) {  // the nearest last, so that it stays
       const auto falls =
           hn::AndNot(hn::Gt(slope[i + 1], hn::Zero(d)), hn::Gt(slope[i], hn::Zero(d)));
@@ -166,9 +170,9 @@ class FirRows {
       column = hn::IfThenElse(falls, hn::Set(d, i - 2), column);
       found = hn::Or(found, falls);
     }
-    const auto left = hn::ConvertTo(f, from);
-    left_ = hn::ConvertTo(f, column);
-    share_ = hn::Div(left, hn::Sub(left, hn::ConvertTo(f, to)));
+    from_ = hn::ConvertTo(f, column);
+    left_ = hn::ConvertTo(f, from);
+    right_ = hn::ConvertTo(f, to);
     found_ = hn::RebindMask(f, found);
   }
 
@@ -250,8 +254,9 @@ class FirRows {
   const StripePlan& plan_;
   const FirShape& s_;
   const VWords* pairs_;
+  VFloats from_ = hn::Zero(Floats());
   VFloats left_ = hn::Zero(Floats());
-  VFloats share_ = hn::Zero(Floats());
+  VFloats right_ = hn::Zero(Floats());
   VFloats off_ = hn::Zero(Floats());
   hn::Mask<Floats> found_ = hn::Lt(hn::Zero(Floats()), hn::Zero(Floats()));
 };

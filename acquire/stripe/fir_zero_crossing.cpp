@@ -26,8 +26,9 @@ class FirZeroCrossing : public RowDetector {
  private:
   /// Where the slope goes from above 0 to 0 or below, between two neighbouring columns.
   struct Crossing {
-    float left = 0;   ///< column of the left one less the peak [px]
-    float share = 0;  ///< of the way to the right one, along a straight slope [1]
+    float from = 0;   ///< column of the left one less the peak [px]
+    float left = 0;   ///< slope there, in weights
+    float right = 0;  ///< slope one column on
   };
 
   /// The one nearest to the peak, up to two columns off.
@@ -36,9 +37,9 @@ class FirZeroCrossing : public RowDetector {
     for (int i = 0; i < 5; ++i) slope[i] = weighed(shape_.kernels.slope, row, peak + i - 2);
     for (const int i : {1, 2, 0, 3}) {
       if (slope[i] > 0 && slope[i + 1] <= 0) {
-        const auto left = static_cast<float>(slope[i]);
         return Crossing{static_cast<float>(i - 2),
-                        left / (left - static_cast<float>(slope[i + 1]))};
+                        static_cast<float>(slope[i]),
+                        static_cast<float>(slope[i + 1])};
       }
     }
     return std::nullopt;
@@ -51,15 +52,16 @@ class FirZeroCrossing : public RowDetector {
   /// Every operation is written out in the order in which fir_simd.cpp does it for many rows.
   std::optional<StripeCandidate> describe(const SignalRow& row, int peak, Crossing crossing) const {
     const FirShape& s = shape_;
-    const float level =
-        static_cast<float>(sum_beside(row, peak)) * s.per_background_pixel;
-    const float height = static_cast<float>(weighed(s.kernels.smooth, row, peak)) * s.smooth_unit -
-                         level;
+    const float level = static_cast<float>(sum_beside(row, peak)) * s.per_background_pixel;
+    const float height =
+        static_cast<float>(weighed(s.kernels.smooth, row, peak)) * s.smooth_unit - level;
     const float bend = static_cast<float>(weighed(s.kernels.curvature, row, peak)) * s.bend_unit;
     if (!(bend > 0)) return std::nullopt;
-    const float t = crossing.share;
-    const float d0 = crossing.left + t;
-    const float ratio = height / bend;
+    const float drop = crossing.left - crossing.right;
+    const float per_both = 1 / (drop * bend);
+    const float t = crossing.left * bend * per_both;
+    const float d0 = crossing.from + t;
+    const float ratio = height * drop * per_both;
     const float root = std::sqrt(std::max(0.0F, ratio * ratio - 4 * ratio * (d0 * d0)));
     const float variance = 0.5F * (ratio + root);
     if (!(variance > 0)) return std::nullopt;
@@ -68,19 +70,21 @@ class FirZeroCrossing : public RowDetector {
     const float top = height * exp_near_zero(0.5F * (d * d) * inverse);
     const float top_bend = top * inverse;
     const float width2 = std::max(0.0F, variance - s.sigma2);
-    const float per_height = std::sqrt(variance / width2);
+    // The filter's slope squared goes as x^2 exp(-x^2 / sigma^2), the line as exp(-x^2 / 2 w^2):
+    // the integral of their product over the first's is (1 + sigma^2 / 2 w^2)^(-3/2).
+    const float drawn2 = std::max(s.least_width2, width2);
+    const float wider2 = drawn2 + 0.5F * s.sigma2;
+    const float per_all = 1 / (drawn2 * wider2 * top_bend);
+    const float per_width2 = wider2 * top_bend * per_all;
+    const float share = drawn2 * drawn2 * top_bend * per_all;
     StripeCandidate found;
     found.position = static_cast<float>(peak) + d;
     found.background = level;
     found.width = std::sqrt(width2);
-    found.amplitude = width2 > 0 ? top * per_height : 0;
+    found.amplitude = width2 > 0 ? top * std::sqrt(variance * per_width2) : 0;
     found.snr_per_noise = top_bend * s.per_bend_noise;
-    found.sigma_per_noise = s.slope_noise / top_bend;
-    // The filter's slope squared goes as x^2 exp(-x^2 / sigma^2), the line as exp(-x^2 / 2 w^2):
-    // the integral of their product over the first's is (1 + sigma^2 / 2 w^2)^(-3/2).
-    const float per_width2 = 1 / std::max(s.least_width2, width2);
-    const float spread = 1 + 0.5F * s.sigma2 * per_width2;
-    found.position_share = 1 / (spread * std::sqrt(spread));
+    found.sigma_per_noise = s.slope_noise * (drawn2 * wider2) * per_all;
+    found.position_share = share * std::sqrt(share);
     found.saturated = row.is_clipped(static_cast<int>(found.position + 0.5F));
     measure_misfit(row, peak, d, 0.5F * per_width2, found);
     if (found.saturated) judge_clipped(row, s.sigma, top_bend, found);
@@ -129,11 +133,9 @@ class FirZeroCrossing : public RowDetector {
     const float spread = sum_gg - sum_g * sum_g * per_pixel;
     const float together = sum_gs - sum_g * s1 * per_pixel;
     // In whole numbers: the difference of two large ones.
-    const float scatter =
-        static_cast<float>(squares * (2 * reach + 1) - sum * sum) * per_pixel;
+    const float scatter = static_cast<float>(squares * (2 * reach + 1) - sum * sum) * per_pixel;
     const float left = scatter - together * together / spread;
     found.residual = std::max(0.0F, left) * shape_.per_misfit_freedom;
-    found.residual_freedom = shape_.misfit_freedom();
     found.residual_freedom = shape_.misfit_freedom();
     found.residual_share = sum_g * per_pixel;
   }

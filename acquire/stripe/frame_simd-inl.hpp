@@ -22,10 +22,54 @@ struct GreyRows {
   RowPart<Value> row(int r) const { return {frame.row(r), 0, frame.cols}; }
   int rows() const { return frame.rows; }
   int cols() const { return frame.cols; }
+  void Make(int, int) const {}
+  const Value* MakeOne(int r) const { return frame.row(r); }
   bool has_flags() const { return false; }
   bool is_clipped(int r, int c) const {
     return frame.row(r)[std::clamp(c, 0, frame.cols - 1)] == 255;
   }
+};
+
+/// Rows that are made batch by batch: a channel, the background taken off.
+class MadeRows {
+ public:
+  using Value = std::int16_t;
+
+  MadeRows(const StripeView& view, Channel channel)
+      : view_(view), channel_(channel), values_(kBatchRows * width()) {}
+
+  void Make(int first, int count) {
+    first_ = first;
+    for (int q = 0; q < count; ++q) MakeRow(first + q, q);
+  }
+  /// One row alone, in place of what was made before.
+  const Value* MakeOne(int r) {
+    MakeRow(r, 0);
+    return values_.data();
+  }
+  RowPart<Value> row(int r) const {
+    return {values_.data() + static_cast<std::size_t>(r - first_) * width(), 0, cols()};
+  }
+  int rows() const { return view_.frame.rows; }
+  int cols() const { return view_.frame.cols; }
+  bool has_flags() const { return true; }
+  bool is_clipped(int r, int c) const {
+    const int step = view_.frame.channels;
+    const std::uint8_t* p = view_.frame.row(r) + std::clamp(c, 0, cols() - 1) * step;
+    return std::find(p, p + step, std::uint8_t{255}) != p + step;
+  }
+
+ private:
+  std::size_t width() const { return static_cast<std::size_t>(cols()); }
+  void MakeRow(int r, int q) {
+    Value* to = values_.data() + static_cast<std::size_t>(q) * width();
+    ReadSignalRow(view_.frame, view_.background, r, channel_, to);
+  }
+
+  StripeView view_;
+  Channel channel_;
+  std::vector<Value> values_;
+  int first_ = 0;
 };
 
 struct SignalRows {
@@ -38,6 +82,8 @@ struct SignalRows {
   }
   int rows() const { return signal.rows(); }
   int cols() const { return signal.cols(); }
+  void Make(int, int) const {}
+  const Value* MakeOne(int r) const { return signal.row(r).values; }
   bool has_flags() const { return true; }
   bool is_clipped(int r, int c) const { return signal.row(r).is_clipped(c); }
 };
@@ -54,27 +100,24 @@ class Locator {
         last_(area.last),
         range_(boxes_between({area.begin, area.end}, plan.search)),
         averaged_(plan.search, noise, true),
-        single_(plan.search, noise, false) {
-    room_.Reserve(rows.cols());
-  }
+        single_(plan.search, noise, false),
+        search_(plan.search, range_, rows.cols()) {}
 
   bool empty() const { return range_.first >= range_.last; }
 
   /// Rows [first, first + count), a whole number of groups but for the last.
   void Locate(int first, int count, StripeLocation& location) {
     again_.clear();
-    std::array<LinePlace, kBatchRows> places;
-    for (int i = 0; i < count; i += kRowsAtOnce) {
-      FourRows<Value> group;
+    int groups = 0;
+    for (int i = 0; i < count; i += kRowsAtOnce, ++groups) {
       for (int k = 0; k < kRowsAtOnce; ++k) {
-        group[static_cast<std::size_t>(k)] = rows_.row(std::min(first + i + k, last_ - 1)).values;
+        groups_[groups][static_cast<std::size_t>(k)] =
+            rows_.row(std::min(first + i + k, last_ - 1)).values;
       }
-      const LinePlace place =
-          SearchRows(group, rows_.cols(), plan_.search, range_, averaged_, room_);
-      std::fill_n(places.begin() + i, std::min(kRowsAtOnce, count - i), place);
     }
+    search_.Search(groups_, groups, averaged_, places_);
     batch_.count = 0;
-    for (int i = 0; i < count; ++i) Add(first + i, places[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < count; ++i) Add(first + i, places_[i / kRowsAtOnce]);
     Settle(true, location);
     if (!again_.empty()) LocateAlone(location);
   }
@@ -92,9 +135,11 @@ class Locator {
   /// Rows that do not show the line of their group are looked at again where `may_repeat`.
   void Settle(bool may_repeat, StripeLocation& location) {
     SettleRows(plan_, batch_);
+    const int cols = rows_.cols();
     for (int q = 0; q < batch_.count; ++q) {
       const SettledLine line = {batch_.column[q] + batch_.shift[q], batch_.drop[q]};
-      const bool settled = line.drop > 0 && line.column >= 0 && line.column < rows_.cols();
+      const bool settled =
+          line.drop > 0 && static_cast<unsigned>(line.column) < static_cast<unsigned>(cols);
       if (may_repeat && !(settled && shows(line, place_[q].height))) {
         again_.push_back(row_[q]);
       } else if (settled) {
@@ -107,12 +152,14 @@ class Locator {
   }
 
   void LocateAlone(StripeLocation& location) {
+    const int count = static_cast<int>(again_.size());
+    for (int i = 0; i < count; ++i) {
+      groups_[i].fill(rows_.row(again_[static_cast<std::size_t>(i)]).values);
+    }
+    search_.Search(groups_, count, single_, places_);
     batch_.count = 0;
-    for (const int r : again_) {
-      const Value* row = rows_.row(r).values;
-      const LinePlace place = SearchRows<Value>(
-          {row, row, row, row}, rows_.cols(), plan_.search, range_, single_, room_);
-      if (place.column >= 0) Add(r, place);
+    for (int i = 0; i < count; ++i) {
+      if (places_[i].column >= 0) Add(again_[static_cast<std::size_t>(i)], places_[i]);
     }
     Settle(false, location);
   }
@@ -123,7 +170,9 @@ class Locator {
   BoxRange range_;
   RowNoiseScale averaged_;
   RowNoiseScale single_;
-  SearchRoom room_;
+  RowSearch search_;
+  FourRows<Value> groups_[kBatchRows];
+  LinePlace places_[kBatchRows];
   SettleBatch<Value> batch_;
   int row_[kBatchRows];
   LinePlace place_[kBatchRows];
@@ -193,10 +242,8 @@ class Measurer {
     for (int c = row.begin; c < row.end; ++c) {
       flags_[static_cast<std::size_t>(c - row.begin)] = rows_.is_clipped(r, c) ? 1 : 0;
     }
-    judge_clipped({values_.data(), flags_.data(), row.begin, row.end},
-                  plan_.shape.sigma,
-                  bend,
-                  found);
+    judge_clipped(
+        {values_.data(), flags_.data(), row.begin, row.end}, plan_.shape.sigma, bend, found);
   }
 
   const Rows& rows_;
@@ -207,31 +254,35 @@ class Measurer {
 };
 
 template <typename Rows>
-void LocateAndMeasure(const Rows& rows,
+void LocateAndMeasure(Rows rows,
                       const StripeOptions& options,
                       StripeLocation& location,
                       MeasuredRows* measured) {
-  const StripePlan plan(options.sigma);
+  const StripePlan& plan = plan_for(options.sigma);
   const SearchArea area = search_area(rows.rows(), rows.cols(), options);
-  location.noise = EstimateNoise(
-      rows.rows(), rows.cols(), [&](int r) { return rows.row(r).values; });
+  location.noise = EstimateNoise(rows.rows(), rows.cols(), [&](int r) { return rows.MakeOne(r); });
   Locator<Rows> locator(rows, plan, area, location.noise);
   Measurer<Rows> measurer(rows, plan);
   if (measured != nullptr && area.last - area.first < rows.rows()) measured->clear();
   for (int r = area.first; r < area.last && !locator.empty(); r += kBatchRows) {
     const int count = std::min(kBatchRows, area.last - r);
+    rows.Make(r, count);
     locator.Locate(r, count, location);
     if (measured != nullptr) measurer.Measure(r, count, location, *measured);
   }
 }
 
-bool MeasureGrey(const ImageView8& grey,
-                 const StripeOptions& options,
-                 StripeLocation& location,
-                 MeasuredRows* measured) {
-  LocateAndMeasure(GreyRows{grey}, options, location, measured);
+bool MeasureFrame(const StripeView& view,
+                  const StripeOptions& options,
+                  StripeLocation& location,
+                  MeasuredRows* measured) {
+  if (view.frame.channels == 1 && view.background.empty()) {
+    LocateAndMeasure(GreyRows{view.frame}, options, location, measured);
+  } else {
+    LocateAndMeasure(MadeRows(view, options.channel), options, location, measured);
+  }
   measured->profile.noise = location.noise;
-  measured->residual_freedom = fir_shape(options.sigma).misfit_freedom();
+  measured->residual_freedom = plan_for(options.sigma).shape.misfit_freedom();
   return true;
 }
 
@@ -246,7 +297,7 @@ bool MeasureSignal(const StripeSignal& signal,
                    const StripeLocation& location,
                    const StripeOptions& options,
                    MeasuredRows& measured) {
-  const StripePlan plan(options.sigma);
+  const StripePlan& plan = plan_for(options.sigma);
   const SignalRows rows{signal};
   Measurer<SignalRows> measurer(rows, plan);
   const int all = static_cast<int>(location.size());

@@ -17,13 +17,20 @@ int level_at(const RowGroup& rows, int c) {
   return average(average(value(0), value(1)), average(value(2), value(3)));
 }
 
-/// What a box exceeds both its neighbours by, for the boxes that begin with pairs [first, last).
+/// Average of so many columns from c on, twice as many for every halving.
+int column_at(const RowGroup& rows, int c, int halvings) {
+  if (halvings == 0) return level_at(rows, c);
+  const int half = 1 << (halvings - 1);
+  return average(column_at(rows, c, halvings - 1), column_at(rows, c + half, halvings - 1));
+}
+
+/// What boxes [first, last) exceed those beside them by.
 std::vector<int> heights(const RowGroup& rows, const LineSearch& search, int first, int last) {
   const int length = 1 << search.levels;
   const int begin = first - search.distance;
   std::vector<int> box;
   for (int j = begin; j < last + search.distance + length; ++j) {
-    box.push_back(average(level_at(rows, 2 * j), level_at(rows, 2 * j + 1)));
+    box.push_back(column_at(rows, search.step() * j, search.halvings));
   }
   for (int step = 1; step < length; step *= 2) {
     for (std::size_t i = 0; i + static_cast<std::size_t>(step) < box.size(); ++i) {
@@ -70,8 +77,10 @@ float noise_of(std::vector<int>& over, const RowNoiseScale& scale, std::size_t t
 
 LineSearch line_search(double sigma) {
   LineSearch search;
-  search.levels = sigma <= 2.8 ? 1 : sigma <= 5.6 ? 2 : 3;
-  search.distance = std::max(1 << search.levels, static_cast<int>(std::lround(1.5 * sigma)));
+  search.halvings = sigma < 1.5 ? 1 : 2;
+  search.levels = sigma < 1.5 ? 1 : sigma <= 2.8 ? 0 : sigma <= 5.6 ? 1 : 2;
+  search.distance =
+      std::max(2 << (search.levels / 2), static_cast<int>(std::lround(3 * sigma / search.step())));
   search.box = std::max(2, static_cast<int>(std::lround(2.5 * sigma)));
   search.reach = std::max(4, static_cast<int>(std::lround(3 * sigma)));
   return search;
@@ -81,7 +90,7 @@ RowNoiseScale::RowNoiseScale(const LineSearch& search, float noise, bool average
   // White noise n leaves n / sqrt(pixels) in a box, and each average that rounds a variance of
   // 1/16, less what later averages take away. A box exceeds the higher of two others, all alike,
   // by 0.282 of their standard deviation in the mean, 0 where it does not.
-  const float pixels = static_cast<float>((averaged ? kRowsAtOnce : 1) * (2 << search.levels));
+  const float pixels = static_cast<float>((averaged ? kRowsAtOnce : 1) * search.width());
   constexpr float kRounding = 0.12F;
   constexpr float kMeanHeight = 0.282F;
   constexpr float kClear = 1.5F;
@@ -97,10 +106,13 @@ RowNoiseScale::RowNoiseScale(const LineSearch& search, float noise, bool average
 
 BoxRange boxes_between(const std::array<int, 2>& columns, const LineSearch& search) {
   if (columns[1] - columns[0] < 3) return {};
-  const int half = search.middle(0);
-  constexpr int kEven = 1024;  // a row's first boxes begin left of column 0: halve above 0
-  return {(columns[0] - half + 1 + kEven) / 2 - kEven / 2,
-          (columns[1] - half + 1 + kEven) / 2 - kEven / 2};
+  // The first box whose middle is at or right of a column; a row's first boxes begin left of it.
+  const auto from = [&](int column) {
+    constexpr int kSteps = 256;
+    const int least = column - search.middle(0) + search.step() - 1;
+    return (least + kSteps * search.step()) / search.step() - kSteps;
+  };
+  return {from(columns[0]), from(columns[1])};
 }
 
 LinePlace search_rows(const RowGroup& rows,
@@ -114,7 +126,7 @@ LinePlace search_rows(const RowGroup& rows,
   const std::size_t top = highest(over);
   LinePlace place = place_at(over, top, pairs, search);
   if (place.height <= 0) return {};
-  const int reach = search.distance + (1 << search.levels);
+  const int reach = search.own_reach();
   place.row_noise = noise_of(over, RowNoiseScale(search, noise, averaged), top, reach);
   return place;
 }
@@ -136,7 +148,7 @@ std::vector<LinePlace> search_row(const SignalRow& row,
     if (i == 0) place.row_noise = search_rows(rows, search, columns, 0, false).row_noise;
     places.push_back(place);
     const int index = static_cast<int>(top);
-    const int reach = std::max(1, apart / 2);
+    const int reach = std::max(1, apart / search.step());
     std::fill(over.begin() + std::max(0, index - reach),
               over.begin() + std::min(static_cast<int>(over.size()), index + reach + 1),
               0);

@@ -10,22 +10,28 @@
 namespace facula {
 
 /// How a line of a given width is looked for, in whole numbers of 8 bits. Rows are averaged into
-/// one, columns in pairs; boxes of 2^(levels + 1) columns are then held against the boxes `distance`
-/// pairs to both sides. Every average rounds halves up.
+/// one, columns in pairs or, twice, in fours; boxes of 2^levels of these are then held against the
+/// boxes `distance` pairs or fours to both sides. Every average rounds halves up.
 struct LineSearch {
-  int levels = 1;    ///< of averaging neighbours, after the pairs [1]
-  int distance = 3;  ///< between the boxes held against one another [pairs of px]
+  int halvings = 2;  ///< of the number of columns: 1 pairs, 2 fours [1]
+  int levels = 0;    ///< of averaging neighbours after that [1]
+  int distance = 2;  ///< between the boxes held against one another [pairs or fours]
   int box = 5;       ///< columns summed on each side when a row's own line is settled [px]
   int reach = 6;     ///< how far a row's own line may lie from where it was looked for [px]
 
-  /// Column in the middle of the box that begins with pair j.
-  int middle(int j) const { return 2 * j + (1 << levels); }
+  int step() const { return 1 << halvings; }              ///< columns from box to box [px]
+  int width() const { return 1 << (halvings + levels); }  ///< columns of a box [px]
+
+  /// Column in the middle of box j, which begins with pair or four j.
+  int middle(int j) const { return step() * j + width() / 2; }
+  /// Boxes beside the highest that its line may reach.
+  int own_reach() const { return distance + (1 << levels); }
 };
 
-/// For lines of width `sigma` [px]: boxes of about twice that, 3 sigma apart.
+/// For lines of width `sigma` [px]: boxes of about twice that, 3 sigma or more apart.
 LineSearch line_search(double sigma);
 
-/// Boxes by the pairs they begin with: [first, last).
+/// Boxes [first, last) of a row.
 struct BoxRange {
   int first = 0;
   int last = 0;
@@ -88,8 +94,8 @@ class RowNoiseScale {
   int clip(int step) const { return clip_[static_cast<std::size_t>(step)]; }
   /// Whether `sum` over `count` bends, clipped at clip(step), fits the noise of that step.
   bool fits(int step, int sum, int count) const {
-    return static_cast<float>(sum) <= limit_[static_cast<std::size_t>(step)] *
-                                          static_cast<float>(count);
+    return static_cast<float>(sum) <=
+           limit_[static_cast<std::size_t>(step)] * static_cast<float>(count);
   }
   /// The row's noise when it fits first at this step [DN].
   float noise(int step, int sum, int count) const {

@@ -22,8 +22,7 @@ LocatedRow locate_in_row(
   const std::array<int, 2> columns = {std::max(begin, row.begin), std::min(end, row.end)};
   const LineSearch search = line_search(static_cast<double>(kernels.sigma));
   const int apart = std::max(2, static_cast<int>(std::ceil(2 * kernels.sigma)));
-  const std::vector<LinePlace> places =
-      search_row(row, search, columns, apart, 2 * max_peaks);
+  const std::vector<LinePlace> places = search_row(row, search, columns, apart, 2 * max_peaks);
   if (!places.empty()) located.row_noise = places.front().row_noise;
   for (const LinePlace& place : places) {
     const auto line = settle(row, search, place.column);

@@ -7,6 +7,7 @@
 #define FACULA_ROW_SEARCH_SIMD
 #endif
 
+#include <hwy/aligned_allocator.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -44,21 +45,18 @@ class SearchRoom {
   static constexpr std::size_t kOff = 128;  ///< more than any distance and any vector
 
   void Reserve(int cols) {
-    const std::size_t need = static_cast<std::size_t>(cols) / 2 + 3 * kOff;
-    if (pairs_.size() < need) {
-      pairs_.resize(need);
-      boxes_.resize(need);
-      over_.resize(need);
-    }
+    const std::size_t need = (static_cast<std::size_t>(cols) / 2 + 3 * kOff) / kOff * kOff;
+    if (size_ >= need) return;
+    size_ = need;
+    bytes_ = hwy::AllocateAligned<std::uint8_t>(3 * need);
   }
-  std::uint8_t* pairs() { return pairs_.data() + kOff; }
-  std::uint8_t* boxes() { return boxes_.data() + kOff; }
-  std::uint8_t* over() { return over_.data(); }
+  std::uint8_t* columns() { return bytes_.get() + kOff; }
+  std::uint8_t* boxes() { return bytes_.get() + size_ + kOff; }
+  std::uint8_t* over() { return bytes_.get() + 2 * size_; }
 
  private:
-  std::vector<std::uint8_t> pairs_;
-  std::vector<std::uint8_t> boxes_;
-  std::vector<std::uint8_t> over_;
+  std::size_t size_ = 0;
+  hwy::AlignedFreeUniquePtr<std::uint8_t[]> bytes_;
 };
 
 template <typename Value>
@@ -68,14 +66,21 @@ HWY_INLINE VBytes LevelOf(const FourRows<Value>& rows, std::size_t c) {
   return hn::AverageRound(upper, lower);
 }
 
-template <typename Value>
-HWY_INLINE void StorePairs(const FourRows<Value>& rows, std::size_t c, std::uint8_t* pairs) {
+template <int kHalvings, typename Value>
+HWY_INLINE void StoreColumns(const FourRows<Value>& rows, std::size_t c, std::uint8_t* to) {
   const Bytes d;
   const auto left = LevelOf(rows, c);
   const auto right = LevelOf(rows, c + hn::Lanes(d));
-  hn::StoreU(hn::AverageRound(hn::ConcatEven(d, right, left), hn::ConcatOdd(d, right, left)),
-             d,
-             pairs);
+  const auto pairs =
+      hn::AverageRound(hn::ConcatEven(d, right, left), hn::ConcatOdd(d, right, left));
+  if (kHalvings == 1) {
+    hn::StoreU(pairs, d, to);
+  } else {
+    const auto fours =
+        hn::AverageRound(hn::ConcatEven(d, pairs, pairs), hn::ConcatOdd(d, pairs, pairs));
+    const hn::Half<Bytes> half;
+    hn::StoreU(hn::LowerHalf(half, fours), half, to);
+  }
 }
 
 template <typename Value>
@@ -85,14 +90,14 @@ HWY_INLINE std::uint8_t LevelAt(const FourRows<Value>& rows, std::size_t c) {
   return static_cast<std::uint8_t>((upper + lower + 1) >> 1);
 }
 
-/// Rows into one, columns into pairs; the row goes on level beyond its ends.
-template <typename Value>
-HWY_INLINE void AveragePairs(const FourRows<Value>& rows, std::size_t cols, SearchRoom& room) {
+/// Rows into one, columns into pairs or fours; the row goes on level beyond its ends.
+template <int kHalvings, typename Value>
+HWY_INLINE void AverageColumns(const FourRows<Value>& rows, std::size_t cols, SearchRoom& room) {
   const Bytes d;
   const std::size_t step = 2 * hn::Lanes(d);
-  std::uint8_t* pairs = room.pairs();
+  std::uint8_t* to = room.columns();
   std::size_t c = 0;
-  for (; c + step <= cols; c += step) StorePairs(rows, c, pairs + c / 2);
+  for (; c + step <= cols; c += step) StoreColumns<kHalvings>(rows, c, to + (c >> kHalvings));
   if (c < cols) {
     Value tail[kRowsAtOnce][2 * HWY_MAX_BYTES];
     FourRows<Value> tails;
@@ -101,20 +106,21 @@ HWY_INLINE void AveragePairs(const FourRows<Value>& rows, std::size_t cols, Sear
       std::fill(tail[i] + (cols - c), tail[i] + step, rows[i][cols - 1]);
       tails[i] = tail[i];
     }
-    StorePairs(tails, 0, pairs + c / 2);
+    StoreColumns<kHalvings>(tails, 0, to + (c >> kHalvings));
   }
   constexpr std::size_t kEdge = 32;
-  std::memset(pairs - kEdge, LevelAt(rows, 0), kEdge);
-  std::memset(pairs + (cols + 1) / 2, LevelAt(rows, cols - 1), kEdge);
+  std::memset(to - kEdge, LevelAt(rows, 0), kEdge);
+  const std::size_t own = (cols + (std::size_t{1} << kHalvings) - 1) >> kHalvings;
+  std::memset(to + own, LevelAt(rows, cols - 1), kEdge);
 }
 
-/// Pairs into boxes: [first, last) and what they are held against.
+/// Pairs or fours into boxes: [first, last) and what they are held against.
 HWY_INLINE const std::uint8_t* AverageBoxes(const LineSearch& search,
                                             int first,
                                             int last,
                                             SearchRoom& room) {
   const Bytes d;
-  std::uint8_t* from = room.pairs();
+  std::uint8_t* from = room.columns();
   std::uint8_t* to = room.boxes();
   for (int level = 0; level < search.levels; ++level) {
     const int end = last + search.distance + (1 << search.levels);
@@ -127,28 +133,43 @@ HWY_INLINE const std::uint8_t* AverageBoxes(const LineSearch& search,
   return from;
 }
 
-/// What each box exceeds those beside it by, into room.over(); the highest of it.
-HWY_INLINE int HoldAgainstSides(
-    const std::uint8_t* boxes, const LineSearch& search, int first, int last, SearchRoom& room) {
+/// The highest of what the boxes exceed those beside them by, and the sum of it, each at most
+/// `clip`.
+struct Heights {
+  int highest = 0;
+  int clipped_sum = 0;
+};
+
+/// What each box exceeds those beside it by, into room.over().
+HWY_INLINE Heights HoldAgainstSides(const std::uint8_t* boxes,
+                                    const LineSearch& search,
+                                    BoxRange range,
+                                    int clip,
+                                    SearchRoom& room) {
   const Bytes d;
+  const hn::Repartition<std::uint64_t, Bytes> d64;
   const int lanes = static_cast<int>(hn::Lanes(d));
   std::uint8_t* over = room.over();
+  const auto most = hn::Set(d, static_cast<std::uint8_t>(clip));
   auto highest = hn::Zero(d);
-  for (int j = first; j < last; j += lanes) {
+  auto sum = hn::Zero(d64);
+  for (int j = range.first; j < range.last; j += lanes) {
     const auto beside = hn::Max(hn::LoadU(d, boxes + j - search.distance),
                                 hn::LoadU(d, boxes + j + search.distance));
     auto above = hn::SaturatedSub(hn::LoadU(d, boxes + j), beside);
-    if (last - j < lanes) {
-      above = hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(last - j)), above);
+    if (range.last - j < lanes) {
+      above = hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(range.last - j)), above);
     }
     highest = hn::Max(highest, above);
-    hn::StoreU(above, d, over + (j - first));
+    sum = hn::Add(sum, hn::SumsOf8(hn::Min(most, above)));
+    hn::Store(above, d, over + (j - range.first));
   }
   const hn::Repartition<std::uint16_t, Bytes> d16;
   const auto both = hn::BitCast(d16, highest);
   const auto of_two =
       hn::Max(hn::And(both, hn::Set(d16, std::uint16_t{0xFF})), hn::ShiftRight<8>(both));
-  return hn::GetLane(hn::MaxOfLanes(d16, of_two));
+  return {static_cast<int>(hn::GetLane(hn::MaxOfLanes(d16, of_two))),
+          static_cast<int>(hn::GetLane(hn::SumOfLanes(d64, sum)))};
 }
 
 HWY_INLINE int FirstEqual(const std::uint8_t* values, int value) {
@@ -179,15 +200,9 @@ HWY_INLINE int SumClipped(const std::uint8_t* values, int count, int clip) {
   return static_cast<int>(hn::GetLane(hn::SumOfLanes(d64, sum)));
 }
 
-HWY_INLINE float NoiseBeside(const std::uint8_t* over,
-                             int count,
-                             int top,
-                             int reach,
-                             const RowNoiseScale& scale) {
-  const int first = std::max(0, top - reach);
-  const int last = std::min(count, top + reach + 1);
+HWY_NOINLINE float NoiseBeside(
+    const std::uint8_t* over, int count, int first, int last, const RowNoiseScale& scale) {
   const int kept = count - (last - first);
-  if (kept < 32) return 0;
   int sum = 0;
   for (int step = 0; step < RowNoiseScale::kSteps; ++step) {
     sum = SumClipped(over, count, scale.clip(step)) -
@@ -197,26 +212,80 @@ HWY_INLINE float NoiseBeside(const std::uint8_t* over,
   return scale.noise(RowNoiseScale::kSteps - 1, sum, kept);
 }
 
-/// search_rows() for rows of `cols` columns that begin at column 0.
-template <typename Value>
-HWY_NOINLINE LinePlace SearchRows(const FourRows<Value>& rows,
-                                  int cols,
-                                  const LineSearch& search,
-                                  const BoxRange& range,
-                                  const RowNoiseScale& scale,
-                                  SearchRoom& room) {
-  AveragePairs(rows, static_cast<std::size_t>(cols), room);
-  const std::uint8_t* boxes = AverageBoxes(search, range.first, range.last, room);
-  LinePlace place;
-  const int highest = HoldAgainstSides(boxes, search, range.first, range.last, room);
-  if (highest == 0) return place;
-  const int top = FirstEqual(room.over(), highest);
-  place.height = highest;
-  place.column = search.middle(range.first + top);
-  const int reach = search.distance + (1 << search.levels);
-  place.row_noise = NoiseBeside(room.over(), range.last - range.first, top, reach, scale);
-  return place;
-}
+/// search_rows() for rows of `cols` columns that begin at column 0, many groups at a time, step by
+/// step: what one step stores has then left the processor when the next one reads it.
+class RowSearch {
+ public:
+  static constexpr int kMostGroups = kBatchRows;
+
+  RowSearch(const LineSearch& search, BoxRange range, int cols)
+      : search_(search), range_(range), cols_(cols) {}
+
+  template <typename Value>
+  HWY_INLINE void Search(const FourRows<Value>* groups,
+                         int count,
+                         const RowNoiseScale& scale,
+                         LinePlace* places) {
+    for (int first = 0; first < count; first += kAtOnce) {
+      SearchSome(groups + first, std::min(kAtOnce, count - first), scale, places + first);
+    }
+  }
+
+ private:
+  static constexpr int kAtOnce = kBatchRows / kRowsAtOnce;
+
+  template <typename Value>
+  HWY_NOINLINE void SearchSome(const FourRows<Value>* groups,
+                               int count,
+                               const RowNoiseScale& scale,
+                               LinePlace* places) {
+    std::array<const std::uint8_t*, kAtOnce> boxes;
+    std::array<Heights, kAtOnce> heights;
+    for (int g = 0; g < count; ++g) {
+      rooms_[at(g)].Reserve(cols_);
+      if (search_.halvings == 1) {
+        AverageColumns<1>(groups[g], static_cast<std::size_t>(cols_), rooms_[at(g)]);
+      } else {
+        AverageColumns<2>(groups[g], static_cast<std::size_t>(cols_), rooms_[at(g)]);
+      }
+    }
+    for (int g = 0; g < count; ++g) {
+      boxes[at(g)] = AverageBoxes(search_, range_.first, range_.last, rooms_[at(g)]);
+    }
+    for (int g = 0; g < count; ++g) {
+      heights[at(g)] =
+          HoldAgainstSides(boxes[at(g)], search_, range_, scale.clip(0), rooms_[at(g)]);
+    }
+    for (int g = 0; g < count; ++g) {
+      places[g] = PlaceOf(heights[at(g)], rooms_[at(g)].over(), scale);
+    }
+  }
+
+  static std::size_t at(int g) { return static_cast<std::size_t>(g); }
+
+  HWY_INLINE LinePlace PlaceOf(const Heights& heights,
+                               const std::uint8_t* over,
+                               const RowNoiseScale& scale) const {
+    if (heights.highest == 0) return {};
+    const int top = FirstEqual(over, heights.highest);
+    const int count = range_.last - range_.first;
+    const int reach = search_.own_reach();
+    const int first = std::max(0, top - reach);
+    const int last = std::min(count, top + reach + 1);
+    const int kept = count - (last - first);
+    LinePlace place = {search_.middle(range_.first + top), heights.highest, 0};
+    // With the line's own in it the sum is no less.
+    if (kept >= 32 && !scale.fits(0, heights.clipped_sum, kept)) {
+      place.row_noise = NoiseBeside(over, count, first, last, scale);
+    }
+    return place;
+  }
+
+  LineSearch search_;
+  BoxRange range_;
+  int cols_;
+  std::array<SearchRoom, kAtOnce> rooms_;
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace facula

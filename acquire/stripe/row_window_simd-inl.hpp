@@ -117,7 +117,7 @@ template <typename Value>
 struct SettleBatch {
   int count = 0;
   RowPart<Value> rows[kBatchRows];
-  std::int16_t column[kBatchRows];  ///< where to look [px]
+  std::int16_t column[kBatchRows];             ///< where to look [px]
   alignas(64) std::int16_t shift[kBatchRows];  ///< of the settled line from there [px]
   alignas(64) std::int16_t drop[kBatchRows];   ///< 0 where there is none
 };
@@ -147,8 +147,8 @@ HWY_NOINLINE void SettleRows(const StripePlan& plan, SettleBatch<Value>& batch) 
     auto best_shift = hn::Zero(d);
     for (int s = -reach; s <= reach; ++s) {
       const int k = plan.settle_reach + s;
-      const auto right = hn::Sub(hn::Sub(sums[k + box + 1], sums[k + 1]),
-                                 hn::Sub(sums[k], sums[k - box]));
+      const auto right =
+          hn::Sub(hn::Sub(sums[k + box + 1], sums[k + 1]), hn::Sub(sums[k], sums[k - box]));
       if (s > -reach) {
         const auto drop = hn::Sub(left, right);
         const auto falls = hn::AndNot(hn::Gt(right, hn::Zero(d)), hn::Gt(left, hn::Zero(d)));

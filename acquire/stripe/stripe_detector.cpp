@@ -2,13 +2,14 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/stripe/candidate_judgement.hpp>
 #include <facula/acquire/stripe/detector_table.hpp>
+#include <facula/acquire/stripe/exact_misfit.hpp>
 #include <facula/acquire/stripe/line_kernels.hpp>
 #include <facula/acquire/stripe/locate.hpp>
 #include <facula/acquire/stripe/row_noise.hpp>
 #include <facula/acquire/stripe/stripe_choice.hpp>
 #include <facula/acquire/stripe/stripe_detector.hpp>
-#include <facula/acquire/stripe/stripe_location.hpp>
 #include <facula/acquire/stripe/stripe_judge.hpp>
+#include <facula/acquire/stripe/stripe_location.hpp>
 #include <facula/acquire/stripe/stripe_median.hpp>
 #include <facula/acquire/stripe/stripe_sigma.hpp>
 #include <facula/acquire/stripe/stripe_simd.hpp>
@@ -65,24 +66,32 @@ MeasuredRows measure_all(const StripeSignal& signal,
   return rows;
 }
 
-StripeProfile judge_fir(MeasuredRows rows, const StripeOptions& options) {
-  StripeProfile profile = judge_rows(std::move(rows), options);
+StripeProfile judge_fir(MeasuredRows rows, const StripeOptions& options, RowAbout row_about) {
+  StripeProfile profile =
+      judge_rows(std::move(rows), options, ExactMisfit(std::move(row_about), options.sigma));
   if (options.median_rows == 3) median_along(profile, false);
   return profile;
 }
 
-/// The shortest way, for the default detector on grey frames as they are.
-std::optional<MeasuredRows> measure_grey(ImageView8 frame,
-                                         ImageView8 background,
-                                         const StripeOptions& options) {
-  const bool fits = options.detector == DetectorKind::kFirZeroCrossing && frame.channels == 1 &&
-                    background.empty();
-  if (!fits) return {};
-  if (options.direction == StripeDirection::kPerRow) {
-    return measure_frame_simd(frame, options, nullptr);
+std::optional<StripeProfile> detect_upright(const StripeView& view, const StripeOptions& options) {
+  auto rows = measure_frame_simd(view, options, nullptr);
+  if (!rows) return {};
+  return judge_fir(
+      std::move(*rows), options, rows_of(view.frame, view.background, options.channel));
+}
+
+/// The shortest way, for the default detector: straight on the frame.
+std::optional<StripeProfile> detect_in_frame(ImageView8 frame,
+                                             ImageView8 background,
+                                             const StripeOptions& options) {
+  if (options.detector != DetectorKind::kFirZeroCrossing) return {};
+  check_pair(frame, background);
+  if (options.direction == StripeDirection::kPerColumn) {
+    const Image8 turned = transposed(frame);
+    const Image8 turned_dark = background.empty() ? Image8() : transposed(background);
+    return detect_upright({turned.view(), turned_dark.view()}, options);
   }
-  const Image8 turned = transposed(frame);
-  return measure_frame_simd(turned.view(), options, nullptr);
+  return detect_upright({frame, background}, options);
 }
 
 void store(const StripeCandidate& found, float gain, std::size_t r, StripeProfile& profile) {
@@ -148,7 +157,9 @@ StripeProfile measure_stripe(const StripeSignal& signal,
   const std::unique_ptr<RowDetector> detector = make_detector(options);
   if (options.detector == DetectorKind::kFirZeroCrossing) {
     auto rows = measure_rows_simd(signal, location, options);
-    return judge_fir(rows ? std::move(*rows) : measure_all(signal, location, *detector), options);
+    return judge_fir(rows ? std::move(*rows) : measure_all(signal, location, *detector),
+                     options,
+                     rows_of(signal));
   }
   StripeProfile profile = StripeProfile::none(location.size());
   profile.noise = location.noise;
@@ -174,9 +185,7 @@ StripeProfile detect_stripe(ImageView8 frame, ImageView8 background, const Strip
   options.check();
   require(!frame.empty(), "expected a frame with pixels, got an empty one");
   if (asks_for_choice(options)) return detect_stripe(StripeView{frame, background}, options);
-  if (auto rows = measure_grey(frame, background, options)) {
-    return judge_fir(std::move(*rows), options);
-  }
+  if (auto profile = detect_in_frame(frame, background, options)) return std::move(*profile);
   const StripeSignal signal(
       frame, background, options.channel, options.direction == StripeDirection::kPerColumn);
   return measure_stripe(signal, locate_stripe(signal, options), options);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/median.hpp>
+#include <facula/acquire/stripe/exact_misfit.hpp>
 #include <facula/acquire/stripe/stripe_judge.hpp>
 #include <facula/acquire/stripe/stripe_sigma.hpp>
 
@@ -29,8 +30,7 @@ void keep_what_stands_out(MeasuredRows& rows, const StripeOptions& options) {
   const std::size_t count = profile.size();
   for (std::size_t r = 0; r < count; ++r) {
     const bool strong = snr[r] >= min_snr * noise_about(row_noise[r], frame_noise);
-    const bool stands_out =
-        strong & (amplitude[r] >= min_amplitude) & (width[r] <= max_width);
+    const bool stands_out = strong & (amplitude[r] >= min_amplitude) & (width[r] <= max_width);
     seen[r] = stands_out ? seen[r] : std::uint8_t{0};
   }
 }
@@ -63,39 +63,80 @@ void drop_short_runs(StripeProfile& profile, const StripeOptions& options) {
   end_run();
 }
 
+constexpr float kBeyondChance = 3.09F;  // one in a thousand, in standard deviations
+constexpr std::size_t kFewest = 16;     // stripes that a gain is taken from
+// Of the median of 128 quick misfits over the noise squared: 2.4 of its standard deviations.
+constexpr float kMostExcess = 1.12F;
+
+float exact_gain(const MeasuredRows& rows, const ExactMisfit& exact) {
+  const StripeProfile& profile = rows.profile;
+  std::vector<float> gains;
+  const std::size_t step = std::max<std::size_t>(1, profile.size() / 64);
+  for (std::size_t r = step / 2; r < profile.size(); r += step) {
+    if (profile.seen[r] == 0 || profile.saturated[r] != 0) continue;
+    const StripeCandidate misfit = exact.of(rows, r);
+    const float under = profile.amplitude[r] * misfit.residual_share;
+    if (!(misfit.residual_freedom > 0) || !(under > 0)) continue;
+    const float square = misfit.residual / mean_square_at(misfit.residual_freedom, 0);
+    gains.push_back((square - profile.noise * profile.noise) / under);
+  }
+  return gains.size() < kFewest ? 0 : std::max(0.0F, median(gains));
+}
+
 /// How the variance grows with the signal (photon noise, speckle): the median over stripes of
 /// (misfit - noise^2) over the mean signal under it, at least 0 [DN]. Clipped stripes say nothing
-/// about it. Some 128 to 255 rows are enough.
-float signal_noise_gain(MeasuredRows& rows) {
+/// about it. Some 128 to 255 rows are enough for quick misfits; where these exceed the noise by
+/// more than chance, 64 to 127 rows are fitted exactly.
+float signal_noise_gain(MeasuredRows& rows, const ExactMisfit& exact) {
   const float per_median = 1 / mean_square_at(rows.residual_freedom, 0);
   const StripeProfile& profile = rows.profile;
   const float noise2 = profile.noise * profile.noise;
   std::vector<float> gains;
   gains.reserve(256);
+  std::vector<float> squares;
+  squares.reserve(256);
   const std::size_t step = std::max<std::size_t>(1, profile.size() / 128);
   for (std::size_t r = step / 2; r < profile.size(); r += step) {
     const float under = profile.amplitude[r] * rows.residual_share()[r];
     if (profile.seen[r] == 0 || profile.saturated[r] != 0 || !(under > 0)) continue;
-    gains.push_back((rows.residual()[r] * per_median - noise2) / under);
+    const float square = rows.residual()[r] * per_median;
+    squares.push_back(square);
+    gains.push_back((square - noise2) / under);
   }
-  if (gains.size() < 16) return 0;
+  if (gains.size() < kFewest) return 0;
+  if (median(squares) > kMostExcess * noise2) return exact_gain(rows, exact);
   return std::max(0.0F, median(gains));
+}
+
+/// What an exact fit leaves of a row where that is more than noise and light explain, else 0 [DN].
+float misfit_beyond_chance(MeasuredRows& rows,
+                           std::size_t r,
+                           float gain,
+                           const ExactMisfit& exact) {
+  const StripeCandidate misfit = exact.of(rows, r);
+  if (!(misfit.residual_freedom > 0)) return 0;
+  const float noise = noise_about(rows.row_noise()[r], rows.profile.noise);
+  const float photons = gain * rows.profile.amplitude[r];
+  const float expected = noise * noise + photons * misfit.residual_share;
+  const float most = mean_square_at(misfit.residual_freedom, kBeyondChance) * expected;
+  return misfit.residual > most ? std::sqrt(misfit.residual) : 0;
 }
 
 /// A profile that is no single Gaussian (a depth edge cuts it, two surfaces share it) says so by
 /// its misfit; the position is then uncertain in the same measure.
-void work_out_sigma(MeasuredRows& rows, float gain) {
+void work_out_sigma(MeasuredRows& rows, float gain, const ExactMisfit& exact) {
   StripeProfile& profile = rows.profile;
   const float* row_noise = rows.row_noise();
   const float* per_noise = rows.sigma_per_noise();
   const float* residual = rows.residual();
+  std::vector<std::uint8_t> doubtful = profile.seen;
   const float* residual_share = rows.residual_share();
   const float* position_share = rows.position_share();
   const float* amplitude = profile.amplitude.data();
   const std::uint8_t* saturated = profile.saturated.data();
   float* sigma = profile.sigma.data();
   const float frame_noise = profile.noise;
-  const float beyond_chance = mean_square_at(rows.residual_freedom, 3.09F);  // one in a thousand
+  const float beyond_chance = mean_square_at(rows.residual_freedom, kBeyondChance);
   const std::size_t count = profile.size();
   for (std::size_t r = 0; r < count; ++r) {
     const float noise = noise_about(row_noise[r], frame_noise);
@@ -103,8 +144,12 @@ void work_out_sigma(MeasuredRows& rows, float gain) {
     const float expected = noise * noise + photons * residual_share[r];
     const float variance = noise * noise + photons * position_share[r];
     const bool misfit = (saturated[r] == 0) & (residual[r] > beyond_chance * expected);
-    const float inflated = std::max(variance, residual[r]);
-    sigma[r] = per_noise[r] * std::sqrt(misfit ? inflated : variance);
+    sigma[r] = per_noise[r] * std::sqrt(variance);
+    doubtful[r] = misfit ? doubtful[r] : std::uint8_t{0};
+  }
+  for (std::size_t r = 0; r < count; ++r) {
+    if (doubtful[r] == 0) continue;
+    sigma[r] = std::max(sigma[r], per_noise[r] * misfit_beyond_chance(rows, r, gain, exact));
   }
   for (std::size_t r = 0; r < rows.sigma_step.size(); ++r) {
     sigma[r] = std::hypot(sigma[r], rows.sigma_step[r]);
@@ -150,10 +195,12 @@ void MeasuredRows::set_sigma_step(std::size_t r, float step) {
   if (!sigma_step.empty()) sigma_step[r] = step;
 }
 
-StripeProfile judge_rows(MeasuredRows rows, const StripeOptions& options) {
+StripeProfile judge_rows(MeasuredRows rows,
+                         const StripeOptions& options,
+                         const ExactMisfit& exact) {
   keep_what_stands_out(rows, options);
   drop_short_runs(rows.profile, options);
-  work_out_sigma(rows, signal_noise_gain(rows));
+  work_out_sigma(rows, signal_noise_gain(rows, exact), exact);
   clear_unseen(rows.profile);
   return std::move(rows.profile);
 }

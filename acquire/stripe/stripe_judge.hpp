@@ -24,7 +24,7 @@ class MeasuredRows {
   /// seen is 1 where something was found; position, amplitude, width and saturated are filled.
   StripeProfile profile;
   std::vector<float> sigma_step;  ///< empty where all are 0 [px]
-  float residual_freedom = 1;  ///< the same for all rows [1]
+  float residual_freedom = 1;     ///< the same for all rows [1]
 
   /// Sets everything but the profile to 0.
   void clear() { std::fill_n(block_.get(), 6 * profile.size(), 0.0F); }
@@ -42,8 +42,11 @@ class MeasuredRows {
   std::unique_ptr<float[]> block_;  ///< not initialised
 };
 
+class ExactMisfit;
+
 /// Drops what does not stand out from the noise or does not hang together from row to row, and
-/// works out the sigma of the rest.
-StripeProfile judge_rows(MeasuredRows rows, const StripeOptions& options);
+/// works out the sigma of the rest. `exact` is asked where the quick misfits say that something is
+/// amiss: photon noise, a line of another width than expected, no single line.
+StripeProfile judge_rows(MeasuredRows rows, const StripeOptions& options, const ExactMisfit& exact);
 
 }  // namespace facula

@@ -46,7 +46,7 @@ struct PairWeights {
 struct StripePlan {
   LineSearch search;
   FirShape shape;
-  int settle_reach = 0;  ///< of the window a row is settled in, to both sides [px]
+  int settle_reach = 0;   ///< of the window a row is settled in, to both sides [px]
   int settle_eights = 0;  ///< groups of 8 px in it
   int fine_reach = 0;     ///< the same where it is measured [px]
   int fine_eights = 0;
@@ -56,8 +56,7 @@ struct StripePlan {
   PairWeights beside;
   PairWeights under;  ///< 1 where the profile is held up
 
-  explicit StripePlan(double sigma)
-      : search(line_search(sigma)), shape(fir_shape(sigma)) {
+  explicit StripePlan(double sigma) : search(line_search(sigma)), shape(fir_shape(sigma)) {
     settle_reach = search.reach + search.box;
     settle_eights = (2 * settle_reach + 8) / 8;
     fine_reach = shape.reach();
@@ -78,5 +77,16 @@ struct StripePlan {
     beside.lay(ones, fine_reach - shape.background_to);
   }
 };
+
+/// The plan for a width [px]; each thread keeps the last one, since frames follow one another.
+inline const StripePlan& plan_for(double sigma) {
+  thread_local StripePlan plan(sigma);
+  thread_local double planned = sigma;
+  if (planned != sigma) {
+    plan = StripePlan(sigma);
+    planned = sigma;
+  }
+  return plan;
+}
 
 }  // namespace facula

@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/stripe/signal_row.hpp>
 #include <facula/acquire/stripe/stripe_signal.hpp>
+#include <facula/acquire/stripe/transposed.hpp>
 
 namespace facula {
 namespace {
+
+void read_clipped_row(ImageView8 frame, int r, std::uint8_t* clipped) {
+  const std::uint8_t* p = frame.row(r);
+  if (frame.channels == 1) {
+    for (int c = 0; c < frame.cols; ++c) clipped[c] = p[c] == 255 ? 1 : 0;
+    return;
+  }
+  for (int c = 0; c < frame.cols; ++c, p += 3) {
+    clipped[c] = static_cast<std::uint8_t>(int{p[0] == 255} | int{p[1] == 255} | int{p[2] == 255});
+  }
+}
+
+}  // namespace
 
 void check_pair(ImageView8 frame, ImageView8 background) {
   require(frame.empty() || frame.channels == 1 || frame.channels == 3,
@@ -27,39 +42,22 @@ void check_pair(ImageView8 frame, ImageView8 background) {
           background.rows);
 }
 
-void read_clipped_row(ImageView8 frame, int r, std::uint8_t* clipped) {
-  const std::uint8_t* pixels = frame.row(r);
-  for (int c = 0; c < frame.cols; ++c, pixels += frame.channels) {
-    bool any = false;
-    for (int k = 0; k < frame.channels; ++k) any = any || pixels[k] == 255;
-    clipped[c] = any ? 1 : 0;
-  }
-}
-
-}  // namespace
-
 StripeSignal::StripeSignal(ImageView8 frame, ImageView8 background, Channel channel, bool transpose)
     : rows_(transpose ? frame.cols : frame.rows),
       cols_(transpose ? frame.rows : frame.cols),
       width_(cols_) {
   check_pair(frame, background);
-  const std::size_t count = static_cast<std::size_t>(rows_) * static_cast<std::size_t>(cols_);
-  values_.resize(count);
-  clipped_.resize(count);
-  const auto width = static_cast<std::size_t>(frame.cols);
-  std::vector<std::int16_t> lit(width);
-  std::vector<std::int16_t> dark(width, 0);
-  std::vector<std::uint8_t> clipped(width);
-  for (int r = 0; r < frame.rows; ++r) {
-    read_channel_row(frame, r, channel, lit.data());
-    if (!background.empty()) read_channel_row(background, r, channel, dark.data());
-    read_clipped_row(frame, r, clipped.data());
-    const auto row = static_cast<std::size_t>(r);
-    for (std::size_t c = 0; c < width; ++c) {
-      const std::size_t i = transpose ? c * static_cast<std::size_t>(cols_) + row : row * width + c;
-      values_[i] = static_cast<std::int16_t>(lit[c] - dark[c]);
-      clipped_[i] = clipped[c];
-    }
+  const Image8 turned = transpose ? transposed(frame) : Image8();
+  const Image8 turned_dark = transpose && !background.empty() ? transposed(background) : Image8();
+  const ImageView8 lit = transpose ? turned.view() : frame;
+  const ImageView8 dark = transpose ? turned_dark.view() : background;
+  const auto width = static_cast<std::size_t>(cols_);
+  values_.resize(static_cast<std::size_t>(rows_) * width);
+  clipped_.resize(values_.size());
+  for (int r = 0; r < rows_; ++r) {
+    const std::size_t start = static_cast<std::size_t>(r) * width;
+    read_signal_row(lit, dark, r, channel, values_.data() + start);
+    read_clipped_row(lit, r, clipped_.data() + start);
   }
 }
 

@@ -28,6 +28,10 @@ struct SignalRow {
   bool is_clipped(int c) const { return clipped[std::clamp(c, begin, end - 1) - begin] != 0; }
 };
 
+/// Throws Error when the frame is neither grey nor of 3 colours, or background and frame differ in
+/// size or number of channels. The background may be empty.
+void check_pair(ImageView8 frame, ImageView8 background);
+
 /// The rows (or columns) of a frame as the detectors read them: one channel, background taken off,
 /// as signed whole numbers, so that the noise about zero stays whole.
 class StripeSignal {

@@ -20,6 +20,7 @@
 #include <facula/acquire/stripe/row_noise_simd-inl.hpp>
 #include <facula/acquire/stripe/row_search_simd-inl.hpp>
 #include <facula/acquire/stripe/row_window_simd-inl.hpp>
+#include <facula/acquire/stripe/signal_row_simd-inl.hpp>
 // Below row_window_simd-inl.hpp, whose vectors it names.
 #include <facula/acquire/stripe/fir_simd-inl.hpp>
 #include <facula/acquire/stripe/frame_simd-inl.hpp>
@@ -31,7 +32,7 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 // One lane a vector: nothing is gained over the plain functions.
-bool MeasureGrey(const ImageView8&, const StripeOptions&, StripeLocation&, MeasuredRows*) {
+bool MeasureFrame(const StripeView&, const StripeOptions&, StripeLocation&, MeasuredRows*) {
   return false;
 }
 bool LocateSignal(const StripeSignal&, const StripeOptions&, StripeLocation&) {
@@ -53,7 +54,7 @@ HWY_AFTER_NAMESPACE();
 namespace facula {
 namespace {
 
-HWY_EXPORT(MeasureGrey);
+HWY_EXPORT(MeasureFrame);
 HWY_EXPORT(LocateSignal);
 HWY_EXPORT(MeasureSignal);
 
@@ -61,13 +62,14 @@ constexpr int kLeastCols = 64;
 
 }  // namespace
 
-std::optional<MeasuredRows> measure_frame_simd(ImageView8 grey,
+std::optional<MeasuredRows> measure_frame_simd(const StripeView& view,
                                                const StripeOptions& options,
                                                StripeLocation* location) {
-  if (options.sigma > kMostSigma || grey.cols < kLeastCols || grey.channels != 1) return {};
-  StripeLocation located = StripeLocation::none(static_cast<std::size_t>(grey.rows));
+  if (options.sigma > kMostSigma || view.frame.cols < kLeastCols) return {};
+  check_pair(view.frame, view.background);
+  StripeLocation located = StripeLocation::none(static_cast<std::size_t>(view.frame.rows));
   MeasuredRows rows(located.size(), 0);
-  if (!HWY_DYNAMIC_DISPATCH(MeasureGrey)(grey, options, located, &rows)) return {};
+  if (!HWY_DYNAMIC_DISPATCH(MeasureFrame)(view, options, located, &rows)) return {};
   if (location != nullptr) *location = std::move(located);
   return rows;
 }

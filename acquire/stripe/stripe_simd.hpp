@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <facula/acquire/core/image_view.hpp>
+#include <facula/acquire/stripe/stripe_choice.hpp>
 #include <facula/acquire/stripe/stripe_judge.hpp>
 #include <facula/acquire/stripe/stripe_location.hpp>
 #include <facula/acquire/stripe/stripe_signal.hpp>
@@ -16,9 +16,9 @@ namespace facula {
 /// is returned for what these functions do not do, which the others then have to: lines of sigma
 /// above 4 px, rows shorter than 64 px, a processor without the instructions.
 
-/// All of it straight on a grey frame without a background: rows upright. The location is also
-/// written to `location` unless that is null.
-std::optional<MeasuredRows> measure_frame_simd(ImageView8 grey,
+/// All of it straight on a frame whose stripe runs across the rows, each pixel read once. The
+/// location is also written to `location` unless that is null.
+std::optional<MeasuredRows> measure_frame_simd(const StripeView& view,
                                                const StripeOptions& options,
                                                StripeLocation* location);
 

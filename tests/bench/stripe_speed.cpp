@@ -93,25 +93,30 @@ Frames frames_of(const Size& size) {
 
 std::vector<Contender> contenders(const Frames& frames) {
   std::vector<Contender> all;
-  all.push_back({"plain_read", [&](std::size_t i) {
+  all.push_back({"plain_read",
+                 [&](std::size_t i) {
                    const Image8& frame = frames.grey[i];
                    static volatile std::uint64_t sink = 0;
                    sink = plain_read(frame.pixels.data(), frame.pixels.size());
-                 }, {}});
+                 },
+                 {}});
   all.push_back({"fir", [&](std::size_t i) { detect(frames.grey[i], nullptr, {}); }, {}});
-  all.push_back({"fir_on_off", [&](std::size_t i) {
-                   detect(frames.grey[i], &frames.dark[i], {});
-                 }, {}});
+  all.push_back(
+      {"fir_on_off", [&](std::size_t i) { detect(frames.grey[i], &frames.dark[i], {}); }, {}});
   all.push_back({"fir_colour", [&](std::size_t i) { detect(frames.colour[i], nullptr, {}); }, {}});
-  all.push_back({"fir_level", [&](std::size_t i) {
+  all.push_back({"fir_level",
+                 [&](std::size_t i) {
                    StripeOptions options;
                    options.direction = StripeDirection::kPerColumn;
                    detect(frames.level[i], nullptr, options);
-                 }, {}});
-  all.push_back({"opencv_chain", [&](std::size_t i) {
+                 },
+                 {}});
+  all.push_back({"opencv_chain",
+                 [&](std::size_t i) {
                    static volatile float sink = 0;
                    sink = filter_chain(frames.grey[i].view())[0];
-                 }, {}});
+                 },
+                 {}});
   return all;
 }
 
