@@ -87,7 +87,7 @@ void report_comparison(const std::vector<RangeFit>& fits, Figures& figures) {
   FigureTable table{"models",
                     "Models, the smallest error left out first:",
                     {{"model", "model", 0},
-                     {"slope_px_mm", "slope (px mm)", 0},
+                     {"slope", "slope (px mm)", 0},
                      {"vanishing_px", "vanishing", 3},
                      {"bend", "bend (1/px^2)", 9},
                      {"origin_mm", "origin", 2},
@@ -119,7 +119,7 @@ void report_points(const std::vector<RangePoint>& points, const RangeFit& fit, F
                      {"residual_mm", "residual", 2},
                      {"held_out_px", "left out", 3},
                      {"held_out_mm", "left out", 2},
-                     {"mm_per_tenth_px", "mm per 0.1 px", 2}},
+                     {"tenth_px_mm", "0.1 px is", 2}},
                     {}};
   for (std::size_t i = 0; i < points.size(); ++i) {
     table.rows.push_back({1000 * points[i].distance,
@@ -135,8 +135,8 @@ void report_points(const std::vector<RangePoint>& points, const RangeFit& fit, F
 
 void report_fit(const RangeFit& fit, Figures& figures) {
   figures.text("terms", "model", to_string(fit.terms));
-  figures.number("slope_px_mm", "slope A (px mm)", 1000 * fit.model.slope, 1);
-  figures.number("slope_sigma_px_mm", "  1 sigma (px mm)", 1000 * fit.sigma[0], 1);
+  figures.number("slope", "slope A (px mm)", 1000 * fit.model.slope, 1);
+  figures.number("slope_sigma", "  1 sigma (px mm)", 1000 * fit.sigma[0], 1);
   figures.number("vanishing_px", "vanishing position", fit.model.vanishing, 4);
   figures.number("vanishing_sigma_px", "  1 sigma", fit.sigma[1], 4);
   if (fit.terms == RangeTerms::kBend) {

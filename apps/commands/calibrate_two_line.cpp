@@ -102,7 +102,7 @@ void report(const TwoLineFit& fit,
                      {"separation_px", "separation", 3},
                      {"residual_mm", "residual", 2},
                      {"residual_percent", "residual", 3},
-                     {"mm_per_tenth_px", "mm per 0.1 px", 2}},
+                     {"tenth_px_mm", "0.1 px is", 2}},
                     {}};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const TwoLinePoint& p = points[i];

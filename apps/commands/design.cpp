@@ -64,7 +64,7 @@ void run(const DesignArguments& a, Session& session) {
   Figures& figures = session.figures;
   figures.number("fs_mm2", "focal length times baseline", 1e6 * a.design.fs, 1);
   figures.number("baseline_mm", "baseline", 1000 * a.design.fs / a.focal_length, 1);
-  figures.number("slope_px_mm", "slope A = f s / p (px mm)", 1000 * a.design.slope(), 0);
+  figures.number("slope", "slope A = f s / p (px mm)", 1000 * a.design.slope(), 0);
   figures.number("nearest_mm", "nearest distance", 1000 * a.design.nearest(), 1);
   figures.number("laser_angle_deg",
                  "sheet to baseline, infinity on the edge",

@@ -110,8 +110,8 @@ Command measure_two_line_command() {
           "middle give the depth, z = f dY / dy, with 1 sigma from |dz| = z^2 |dy| / (f dY). Depth "
           "is "
           "along the camera's axis, range along the segment's direction.",
-      .examples = {"facula simulate data/scenes/flat_wall.toml --rig data/rigs/two_line_air.toml "
-                   "--conditions data/conditions/two_lines.toml --to-mm 0 --out wall",
+      .examples = {"facula simulate data/scenes/wall_ahead.toml --rig data/rigs/two_line_air.toml "
+                   "--conditions data/conditions/two_lines.toml --out wall",
                    "facula measure two-line wall/frames/0000.png --rig "
                    "data/rigs/two_line_air.toml --spacing-mm 100"},
       .declare = [a](Arguments& arguments) { declare(arguments, *a); },
