@@ -15,7 +15,8 @@ class DamagedLog : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     const Capture capture = logged_wall(*folder_ / "run", 5);
-    whole_ = new PolarScan(extract_scan(capture, {.log = *folder_ / "scan.flog"}).scan);
+    whole_ = new PolarScan(
+        extract_scan(capture, {.num_threads = 1, .log = *folder_ / "scan.flog"}).scan);
     bytes_ = new std::string(read_whole_file(*folder_ / "scan.flog"));
   }
 
