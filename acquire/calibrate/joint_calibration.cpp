@@ -8,6 +8,8 @@
 #include <facula/acquire/core/error.hpp>
 
 #include <cmath>
+#include <numbers>
+#include <set>
 #include <sstream>
 
 namespace facula {
@@ -27,6 +29,26 @@ void require_determined(const JointSolution& solution) {
           " for ",
           solution.parameters,
           "; add views or leave out fewer points");
+}
+
+/// Puts z = 0 of a turntable back on its first flat board, which the fit may have moved along the
+/// axis: no observation holds it there.
+void settle_scan_frame(const std::vector<JointSight>& sights, JointState& state) {
+  if (state.rig.axis.kind != AxisKind::kTurntable) return;
+  for (const JointSight& sight : sights) {
+    if (!sight.placed) continue;
+    const RigidTransform& board = state.poses[sight.pose];
+    const Eigen::Vector3d normal = board.rotation * Eigen::Vector3d::UnitZ();
+    if (std::abs(normal.z()) < std::cos(20 * std::numbers::pi / 180)) continue;
+    const double height = normal.dot(board.translation) / normal.z();
+    std::set<std::size_t> placements;
+    for (const JointSight& s : sights) {
+      if (s.placed) placements.insert(s.pose);
+    }
+    for (const std::size_t p : placements) state.poses[p].translation.z() -= height;
+    state.rig.axis.scan_from_camera.translation.z() -= height;
+    return;
+  }
 }
 
 /// Covariance of the rig, raised where the folds scatter more than it explains.
@@ -105,8 +127,10 @@ JointCalibration calibrate_jointly(const CalibrationSet& set, const JointOptions
   if (options.line_sigma_ratio > 0) noise.line_ratio = options.line_sigma_ratio;
   noise.position_sigma = options.position_sigma;
 
-  const ScaledFit fit = fit_with_scales(options, start.sights, noise, start.state);
+  ScaledFit fit = fit_with_scales(options, start.sights, noise, start.state);
   require_determined(fit.solution);
+  settle_scan_frame(start.sights, start.state);
+  fit.solution = solve_joint(start.sights, fit.freedom, noise, true, start.state);
   JointFolds folds;
   if (options.folds > 0) folds = hold_out(fit.freedom, options, start.sights, noise, start.state);
 
