@@ -4,10 +4,12 @@
 #define HWY_WANT_AVX3_DL 1
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "facula/acquire/stripe/signal_row.cpp"
-#include <facula/acquire/stripe/signal_row_simd-inl.hpp>
-
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#ifdef HWY_TARGET  // what follows comes after the above, however includes are sorted
+#include <facula/acquire/stripe/signal_row_simd-inl.hpp>
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace facula {
