@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs clang-tidy over every file of BUILD/compile_commands.json that lies below ROOT, on all cores.
-# A file that was clean is not looked at again until it, a header of the project, its compile
-# command or the configuration changes; the memory of that is BUILD/tidy.
+# A file that was clean is not looked at again until it, a header of the project that it includes, its
+# compile command or the configuration changes; the memory of that is BUILD/tidy.
 # Usage: tidy.sh ROOT BUILD
 set -euo pipefail
 root=$(realpath "$1")
@@ -10,8 +10,27 @@ build=$(realpath "$2")
 mkdir -p "$build/tidy"
 
 # One key for what all files share.
-shared=$( (clang-tidy --version; cat "$root/.clang-tidy"
-           find "$root" -name '*.hpp' -not -path "$root/build/*" | sort | xargs -r cat) | sha256sum)
+shared=$( (clang-tidy --version; cat "$root/.clang-tidy") | sha256sum)
+
+# What every file of the project includes from it, straight: "file<tab>header", from the root.
+(cd "$root" && find . -name build -prune -o \( -name '*.hpp' -o -name '*.cpp' \) -print0 |
+  xargs -0 -r grep -H -o -E '^#include <facula/[^>]+>' |
+  sed -E 's|^\./([^:]+):#include <facula/(.*)>$|\1\t\2|') >"$build/tidy/includes"
+
+# Itself and all headers of the project that a file includes, straight or through others.
+closure() {
+  awk -F '\t' -v start="$1" '
+    { list[$1] = list[$1] " " $2 }
+    END {
+      todo[n = 1] = start
+      known[start] = 1
+      for (i = 1; i <= n; ++i) {
+        count = split(list[todo[i]], headers, " ")
+        for (k = 1; k <= count; ++k) if (!known[headers[k]]++) todo[++n] = headers[k]
+      }
+      for (file in known) print file
+    }' "$TIDY_BUILD/tidy/includes" | sort
+}
 
 # "command <tab> file" for every entry below the root.
 entries() {
@@ -23,7 +42,8 @@ entries() {
 
 check() {
   local command=$1 file=$2 key
-  key=$( (echo "$TIDY_SHARED $command"; cat "$file") | sha256sum | cut -c 1-40)
+  key=$( (echo "$TIDY_SHARED $command"; cd "$TIDY_ROOT"; closure "${file#"$TIDY_ROOT"/}" |
+            xargs -r -d '\n' cat 2>/dev/null) | sha256sum | cut -c 1-40)
   [[ -e $TIDY_BUILD/tidy/$key ]] && return 0
   if output=$(clang-tidy -p "$TIDY_BUILD" --quiet "$file" 2>&1); then
     touch "$TIDY_BUILD/tidy/$key"
@@ -32,8 +52,8 @@ check() {
     return 1
   fi
 }
-export -f check
-export TIDY_SHARED=$shared TIDY_BUILD=$build
+export -f check closure
+export TIDY_SHARED=$shared TIDY_BUILD=$build TIDY_ROOT=$root
 
 [[ -n $(entries) ]] || { echo "$build/compile_commands.json lists no file of $root"; exit 1; }
 entries | tr '\t\n' '\0\0' |
