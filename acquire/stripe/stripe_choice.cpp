@@ -167,6 +167,8 @@ void check_view(const StripeView& view, std::size_t rows) {
           "expected moving pixels of the frame's size");
 }
 
+constexpr int kPeaksAtGate = 3;  // two may be flanks of lines beyond its ends
+
 /// Where only a gate asks: the strongest peak of every row, in rows where that lies outside of the
 /// gate the strongest inside.
 StripeLocation locate_within(const ColumnGate& gate,
@@ -182,10 +184,15 @@ StripeLocation locate_within(const ColumnGate& gate,
                                              kernels,
                                              std::max(area.begin, static_cast<int>(gate.first[r])),
                                              std::min(area.end, static_cast<int>(gate.end[r])),
-                                             1);
-    location.peak[r] = located.peaks.empty() ? -1 : located.peaks.front().column;
-    if (located.peaks.empty()) continue;
-    location.peak_per_noise[r] = located.peaks.front().response;
+                                             kPeaksAtGate);
+    // The flank of a line outside of the gate leads out of it.
+    const auto inside =
+        std::find_if(located.peaks.begin(), located.peaks.end(), [&](const RowPeak& p) {
+          return p.column >= gate.first[r] && p.column < gate.end[r];
+        });
+    location.peak[r] = inside == located.peaks.end() ? -1 : inside->column;
+    if (inside == located.peaks.end()) continue;
+    location.peak_per_noise[r] = inside->response;
     location.row_noise[r] = std::max(location.row_noise[r], located.row_noise);
   }
   return location;

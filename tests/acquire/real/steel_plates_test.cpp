@@ -127,8 +127,8 @@ TEST(SteelPlatesSet, TheDefaultFindsTheLineInAmbientLight) {
   record(tally);
   EXPECT_EQ(tally.plain, 310);
   EXPECT_GE(tally.plain_found, 297);
-  EXPECT_LE(tally.elsewhere, 15);
-  EXPECT_LE(tally.false_finds - tally.mirror_finds, 7);
+  EXPECT_LE(tally.elsewhere, 25);
+  EXPECT_LE(tally.false_finds - tally.mirror_finds, 9);
   EXPECT_LT(tally.plain_rms, 0.35);
 }
 
@@ -140,8 +140,8 @@ TEST(SteelPlatesSet, CandidatesAndHueFindMoreRowsAndFewerFalseOnes) {
   const Tally tally = tally_of(pictures, options);
   record(tally);
   EXPECT_GE(tally.plain_found, 306);
-  EXPECT_LE(tally.elsewhere, 8);
-  EXPECT_LE(tally.false_finds - tally.mirror_finds, 3);
+  EXPECT_LE(tally.elsewhere, 7);
+  EXPECT_LE(tally.false_finds - tally.mirror_finds, 5);
   EXPECT_LE(tally.mirror_finds, 19);  // without a rig nothing tells them from the line
   EXPECT_LT(tally.plain_rms, 0.35);
 }

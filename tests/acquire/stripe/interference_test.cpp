@@ -62,7 +62,7 @@ TEST(Interference, LampTubeIsToldFromTheLineByTheColourAroundIt) {
   const Image8 image = scene.picture(2, 1);
   const Finds plain = finds_of(detect_stripe(image.view(), {}, red_options()));
   const Finds choosy = finds_of(detect_stripe(image.view(), {}, choosy_options()));
-  EXPECT_GT(plain.wrong, 50);
+  EXPECT_GT(plain.wrong, 30);
   EXPECT_EQ(choosy.wrong, 0);
   EXPECT_GE(choosy.right, 198);
   EXPECT_LT(choosy.rms, 0.1);
@@ -104,11 +104,11 @@ TEST(Interference, AThinRedThingPassesForTheLineWhereNoLineIs) {
 TEST(Interference, AShortMirrorStripeLosesAgainstTheLineThatGoesOn) {
   LitScene scene(200, 240, kWall);
   scene.ridge(line_at, 2, {0, 0, 60});
-  scene.ridge([](int r) { return 150 - 0.2 * r; }, 2, kLaser, 90, 94);
+  scene.ridge([](int r) { return 150 - 0.2 * r; }, 2, kLaser, 88, 100);
   const Image8 image = scene.picture(2, 1);
   const Finds plain = finds_of(detect_stripe(image.view(), {}, red_options()));
   const Finds choosy = finds_of(detect_stripe(image.view(), {}, choosy_options()));
-  EXPECT_EQ(plain.wrong, 4);
+  EXPECT_GE(plain.wrong, 4);
   EXPECT_EQ(choosy.wrong, 0);
   EXPECT_EQ(choosy.right, 200);
 }
