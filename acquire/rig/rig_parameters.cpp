@@ -98,6 +98,7 @@ Slot slot_of(const Rig& rig, const std::string& name, RigDelta& delta) {
 
 std::vector<std::string> camera_parameter_names() {
   std::vector<std::string> names;
+  names.reserve(kCameraParameters.size());
   for (const CameraParameter& p : kCameraParameters) names.emplace_back(p.name);
   return names;
 }

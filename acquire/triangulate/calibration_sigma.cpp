@@ -49,7 +49,7 @@ CalibrationSigma::CalibrationSigma(const Rig& rig, std::size_t laser) : rig_(rig
 }
 
 CalibrationSigma::Node CalibrationSigma::node_at(const Eigen::Vector2d& pixel) const {
-  const Node none = Node::Constant(std::numeric_limits<double>::quiet_NaN());
+  Node none = Node::Constant(std::numeric_limits<double>::quiet_NaN());
   const auto x = point_of(rig_, laser_, pixel);
   if (!x) return none;
   const Eigen::Vector3d ray = rig_.axis.scan_from_camera.rotation * x->normalized();
