@@ -98,16 +98,24 @@ class FirRows {
   FirRows(const StripePlan& plan, const VWords* pairs)
       : plan_(plan), s_(plan.shape), pairs_(pairs) {}
 
-  /// FirZeroCrossing::measure() for rows q on.
-  template <typename Value>
-  HWY_INLINE void Measure(int q, MeasureBatch<Value>& batch) {
-    const Floats d;
+  /// The sums of whole numbers that FirZeroCrossing::measure() begins with.
+  HWY_INLINE void Weigh() {
     FindCrossing();
-    const auto level =
-        hn::Mul(hn::ConvertTo(d, Weighed(pairs_, plan_.beside)), Number(s_.per_background_pixel));
-    const auto smooth = hn::ConvertTo(d, Weighed(pairs_, plan_.smooth));
+    beside_ = Weighed(pairs_, plan_.beside);
+    smooth_ = Weighed(pairs_, plan_.smooth);
+    curved_ = Weighed(pairs_, plan_.curvature);
+    sum_ = Weighed(pairs_, plan_.under);
+    squares_ = SumSquares();
+  }
+
+  /// FirZeroCrossing::describe() for rows q on, but for the misfit.
+  template <typename Value>
+  HWY_INLINE void Describe(int q, MeasureBatch<Value>& batch) {
+    const Floats d;
+    const auto level = hn::Mul(hn::ConvertTo(d, beside_), Number(s_.per_background_pixel));
+    const auto smooth = hn::ConvertTo(d, smooth_);
     const auto height = hn::Sub(hn::Mul(smooth, Number(s_.smooth_unit)), level);
-    const auto curved = hn::ConvertTo(d, Weighed(pairs_, plan_.curvature));
+    const auto curved = hn::ConvertTo(d, curved_);
     const auto bend = hn::Mul(curved, Number(s_.bend_unit));
     found_ = hn::And(found_, hn::Gt(bend, hn::Zero(d)));
 
@@ -146,10 +154,39 @@ class FirRows {
     const auto sigma = hn::Mul(hn::Mul(Number(s_.slope_noise), area), per_all);
     hn::Store(sigma, d, batch.sigma_per_noise + q);
     hn::Store(hn::Mul(share, hn::Sqrt(share)), d, batch.position_share + q);
-    MeasureMisfit(hn::Mul(Number(0.5F), per_width2), q, batch);
+    half_per_width2_ = hn::Mul(Number(0.5F), per_width2);
     const Words words;
     hn::Store(hn::BitCast(words, hn::VecFromMask(d, found_)), words, batch.found + q);
     batch.any_clipped = batch.any_clipped || AnyAtTop();
+  }
+
+  /// FirZeroCrossing::measure_misfit() for rows q on.
+  template <typename Value>
+  HWY_INLINE void MeasureMisfit(int row, MeasureBatch<Value>& batch) const {
+    const Floats d;
+    const auto q = half_per_width2_;
+    const auto change = ExpNearZero(hn::Mul(Number(-2), q));
+    const auto middle = ExpNearZero(hn::Mul(hn::Neg(hn::Mul(off_, off_)), q));
+    Side right = {middle, FactorOf(1, q)};
+    Side left = {middle, FactorOf(-1, q)};
+    Sums sums;
+    sums.g = middle;
+    sums.gg = hn::Mul(middle, middle);
+    sums.gs = hn::Mul(middle, Pixel(plan_.fine_reach));
+    for (int i = 1; i <= s_.misfit_reach; ++i) {
+      AddNext(right, change, Pixel(plan_.fine_reach + i), sums);
+      AddNext(left, change, Pixel(plan_.fine_reach - i), sums);
+    }
+    const auto per_pixel = Number(s_.per_misfit_pixel);
+    const auto s1 = hn::ConvertTo(d, sum_);
+    const auto spread = hn::Sub(sums.gg, hn::Mul(hn::Mul(sums.g, sums.g), per_pixel));
+    const auto together = hn::Sub(sums.gs, hn::Mul(hn::Mul(sums.g, s1), per_pixel));
+    const auto pixels = hn::Set(Words(), 2 * s_.misfit_reach + 1);
+    const auto whole = hn::Sub(hn::Mul(squares_, pixels), hn::Mul(sum_, sum_));
+    const auto scatter = hn::Mul(hn::ConvertTo(d, whole), per_pixel);
+    const auto rest = hn::Sub(scatter, hn::Div(hn::Mul(together, together), spread));
+    hn::Store(hn::Mul(AtLeastZero(rest), Number(s_.per_misfit_freedom)), d, batch.residual + row);
+    hn::Store(hn::Mul(sums.g, per_pixel), d, batch.residual_share + row);
   }
 
  private:
@@ -188,43 +225,23 @@ class FirRows {
     VFloats gs;
   };
 
-  /// The pixels on one side of the peak (side 1 or -1), away from it.
-  HWY_INLINE void AddSide(int side, VFloats factor, VFloats change, Sums& sums, VFloats g) const {
-    for (int i = 1; i <= s_.misfit_reach; ++i) {
-      g = hn::Mul(g, factor);
-      factor = hn::Mul(factor, change);
-      sums.g = hn::Add(sums.g, g);
-      sums.gg = hn::Add(sums.gg, hn::Mul(g, g));
-      sums.gs = hn::Add(sums.gs, hn::Mul(g, Pixel(plan_.fine_reach + side * i)));
-    }
+  /// The profile on its way from the peak to one side.
+  struct Side {
+    VFloats g;
+    VFloats factor;
+  };
+
+  HWY_INLINE VFloats FactorOf(int side, VFloats q) const {
+    const auto twice = hn::Mul(hn::Mul(Number(static_cast<float>(side)), Number(2)), off_);
+    return ExpNearZero(hn::Mul(hn::Neg(q), hn::Sub(Number(1), twice)));
   }
 
-  template <typename Value>
-  HWY_INLINE void MeasureMisfit(VFloats q, int row, MeasureBatch<Value>& batch) const {
-    const Floats d;
-    const auto change = ExpNearZero(hn::Mul(Number(-2), q));
-    const auto middle = ExpNearZero(hn::Mul(hn::Neg(hn::Mul(off_, off_)), q));
-    Sums sums;
-    sums.g = middle;
-    sums.gg = hn::Mul(middle, middle);
-    sums.gs = hn::Mul(middle, Pixel(plan_.fine_reach));
-    for (const int side : {1, -1}) {
-      const auto twice = hn::Mul(hn::Mul(Number(static_cast<float>(side)), Number(2)), off_);
-      const auto factor = ExpNearZero(hn::Mul(hn::Neg(q), hn::Sub(Number(1), twice)));
-      AddSide(side, factor, change, sums, middle);
-    }
-    const auto sum = Weighed(pairs_, plan_.under);
-    const auto squares = SumSquares();
-    const auto per_pixel = Number(s_.per_misfit_pixel);
-    const auto s1 = hn::ConvertTo(d, sum);
-    const auto spread = hn::Sub(sums.gg, hn::Mul(hn::Mul(sums.g, sums.g), per_pixel));
-    const auto together = hn::Sub(sums.gs, hn::Mul(hn::Mul(sums.g, s1), per_pixel));
-    const auto pixels = hn::Set(Words(), 2 * s_.misfit_reach + 1);
-    const auto whole = hn::Sub(hn::Mul(squares, pixels), hn::Mul(sum, sum));
-    const auto scatter = hn::Mul(hn::ConvertTo(d, whole), per_pixel);
-    const auto left = hn::Sub(scatter, hn::Div(hn::Mul(together, together), spread));
-    hn::Store(hn::Mul(AtLeastZero(left), Number(s_.per_misfit_freedom)), d, batch.residual + row);
-    hn::Store(hn::Mul(sums.g, per_pixel), d, batch.residual_share + row);
+  HWY_INLINE static void AddNext(Side& side, VFloats change, VFloats pixel, Sums& sums) {
+    side.g = hn::Mul(side.g, side.factor);
+    side.factor = hn::Mul(side.factor, change);
+    sums.g = hn::Add(sums.g, side.g);
+    sums.gg = hn::Add(sums.gg, hn::Mul(side.g, side.g));
+    sums.gs = hn::Add(sums.gs, hn::Mul(side.g, pixel));
   }
 
   HWY_INLINE VWords SumSquares() const {
@@ -258,6 +275,12 @@ class FirRows {
   VFloats left_ = hn::Zero(Floats());
   VFloats right_ = hn::Zero(Floats());
   VFloats off_ = hn::Zero(Floats());
+  VFloats half_per_width2_ = hn::Zero(Floats());
+  VWords beside_ = hn::Zero(Words());
+  VWords smooth_ = hn::Zero(Words());
+  VWords curved_ = hn::Zero(Words());
+  VWords sum_ = hn::Zero(Words());
+  VWords squares_ = hn::Zero(Words());
   hn::Mask<Floats> found_ = hn::Lt(hn::Zero(Floats()), hn::Zero(Floats()));
 };
 
@@ -270,12 +293,22 @@ HWY_NOINLINE void MeasureRowsOfBatch(const StripePlan& plan, MeasureBatch<Value>
     CopyWindow(batch.rows[q], batch.column[q] - plan.fine_reach, q, layout, pixels.data());
   }
   batch.any_clipped = false;
-  for (int q = 0; q < batch.count; q += layout.lanes) {
-    VWords pairs[kMostWindow / 2];
+  // Two vectors of rows at a time: where one waits for a division the other goes on.
+  for (int q = 0; q < batch.count; q += 2 * layout.lanes) {
+    const int next = q + layout.lanes;
+    VWords pairs[2][kMostWindow / 2];
     for (int e = 0; e < layout.eights; ++e) {
-      TurnPairs(pixels.data() + layout.at(q, e), pairs + 4 * e);
+      TurnPairs(pixels.data() + layout.at(q, e), pairs[0] + 4 * e);
+      TurnPairs(pixels.data() + layout.at(next, e), pairs[1] + 4 * e);
     }
-    FirRows(plan, pairs).Measure(q, batch);
+    FirRows first(plan, pairs[0]);
+    FirRows second(plan, pairs[1]);
+    first.Weigh();
+    second.Weigh();
+    first.Describe(q, batch);
+    second.Describe(next, batch);
+    first.MeasureMisfit(q, batch);
+    second.MeasureMisfit(next, batch);
   }
 }
 

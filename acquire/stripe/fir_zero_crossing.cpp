@@ -111,16 +111,20 @@ class FirZeroCrossing : public RowDetector {
     float sum_g = middle;
     float sum_gg = middle * middle;
     float sum_gs = middle * static_cast<float>(row.at(peak));
-    for (const int side : {1, -1}) {
-      float g = middle;
-      float factor = exp_near_zero(-q * (1 - static_cast<float>(side) * 2 * d));
-      for (int i = 1; i <= reach; ++i) {
-        g = g * factor;
-        factor = factor * change;
-        sum_g = sum_g + g;
-        sum_gg = sum_gg + g * g;
-        sum_gs = sum_gs + g * static_cast<float>(row.at(peak + side * i));
-      }
+    float right = middle;
+    float left = middle;
+    float right_factor = exp_near_zero(-q * (1 - 2 * d));
+    float left_factor = exp_near_zero(-q * (1 + 2 * d));
+    const auto add = [&](float& g, float& factor, int c) {
+      g = g * factor;
+      factor = factor * change;
+      sum_g = sum_g + g;
+      sum_gg = sum_gg + g * g;
+      sum_gs = sum_gs + g * static_cast<float>(row.at(c));
+    };
+    for (int i = 1; i <= reach; ++i) {
+      add(right, right_factor, peak + i);
+      add(left, left_factor, peak - i);
     }
     std::int32_t sum = 0;
     std::int32_t squares = 0;
@@ -134,8 +138,8 @@ class FirZeroCrossing : public RowDetector {
     const float together = sum_gs - sum_g * s1 * per_pixel;
     // In whole numbers: the difference of two large ones.
     const float scatter = static_cast<float>(squares * (2 * reach + 1) - sum * sum) * per_pixel;
-    const float left = scatter - together * together / spread;
-    found.residual = std::max(0.0F, left) * shape_.per_misfit_freedom;
+    const float rest = scatter - together * together / spread;
+    found.residual = std::max(0.0F, rest) * shape_.per_misfit_freedom;
     found.residual_freedom = shape_.misfit_freedom();
     found.residual_share = sum_g * per_pixel;
   }

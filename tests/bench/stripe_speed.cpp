@@ -81,10 +81,11 @@ struct Frames {
 Frames frames_of(const Size& size) {
   Frames frames;
   frames.grey = stripe_frames(size.rows, size.cols, size.frames);
-  for (const Image8& frame : frames.grey) {
-    Image8 dark = frame;
-    for (auto& p : dark.pixels) p = p < 16 ? p : std::uint8_t{8};
-    frames.dark.push_back(std::move(dark));
+  for (std::size_t i = 0; i < frames.grey.size(); ++i) {
+    const Image8& frame = frames.grey[i];
+    // Laser off: the noise of another frame.
+    frames.dark.push_back(frames.grey[(i + 1) % frames.grey.size()]);
+    for (auto& p : frames.dark.back().pixels) p = p < 16 ? p : std::uint8_t{8};
     frames.colour.push_back(in_colour(frame));
     frames.level.push_back(turned(frame));
   }
