@@ -98,6 +98,7 @@ class Locator {
       : rows_(rows),
         plan_(plan),
         last_(area.last),
+        cols_(rows.cols()),
         range_(boxes_between({area.begin, area.end}, plan.search)),
         averaged_(plan.search, noise, true),
         single_(plan.search, noise, false),
@@ -117,17 +118,24 @@ class Locator {
     }
     search_.Search(groups_, groups, averaged_, places_);
     batch_.count = 0;
-    for (int i = 0; i < count; ++i) Add(first + i, places_[i / kRowsAtOnce]);
+    for (int i = 0; i < count; ++i) {
+      const int g = i / kRowsAtOnce;
+      if (places_[g].column < 0) {
+        again_.push_back(first + i);
+      } else {
+        Add(first + i, groups_[g][static_cast<std::size_t>(i % kRowsAtOnce)], g);
+      }
+    }
     Settle(true, location);
     if (!again_.empty()) LocateAlone(location);
   }
 
  private:
-  void Add(int r, const LinePlace& place) {
-    if (place.column < 0) return again_.push_back(r);
+  /// Row r is to be settled where places_[place] says.
+  HWY_INLINE void Add(int r, const Value* values, int place) {
     const int q = batch_.count++;
-    batch_.rows[q] = rows_.row(r);
-    batch_.column[q] = static_cast<std::int16_t>(place.column);
+    batch_.rows[q] = {values, 0, cols_};
+    batch_.column[q] = static_cast<std::int16_t>(places_[place].column);
     row_[q] = r;
     place_[q] = place;
   }
@@ -135,18 +143,17 @@ class Locator {
   /// Rows that do not show the line of their group are looked at again where `may_repeat`.
   void Settle(bool may_repeat, StripeLocation& location) {
     SettleRows(plan_, batch_);
-    const int cols = rows_.cols();
     for (int q = 0; q < batch_.count; ++q) {
       const SettledLine line = {batch_.column[q] + batch_.shift[q], batch_.drop[q]};
       const bool settled =
-          line.drop > 0 && static_cast<unsigned>(line.column) < static_cast<unsigned>(cols);
-      if (may_repeat && !(settled && shows(line, place_[q].height))) {
+          line.drop > 0 && static_cast<unsigned>(line.column) < static_cast<unsigned>(cols_);
+      if (may_repeat && !(settled && shows(line, places_[place_[q]].height))) {
         again_.push_back(row_[q]);
       } else if (settled) {
         const auto r = static_cast<std::size_t>(row_[q]);
         location.peak[r] = line.column;
         location.peak_per_noise[r] = 0.5F * static_cast<float>(line.drop);
-        location.row_noise[r] = place_[q].row_noise;
+        location.row_noise[r] = places_[place_[q]].row_noise;
       }
     }
   }
@@ -159,7 +166,7 @@ class Locator {
     search_.Search(groups_, count, single_, places_);
     batch_.count = 0;
     for (int i = 0; i < count; ++i) {
-      if (places_[i].column >= 0) Add(again_[static_cast<std::size_t>(i)], places_[i]);
+      if (places_[i].column >= 0) Add(again_[static_cast<std::size_t>(i)], groups_[i][0], i);
     }
     Settle(false, location);
   }
@@ -167,6 +174,7 @@ class Locator {
   const Rows& rows_;
   const StripePlan& plan_;
   int last_;
+  int cols_;
   BoxRange range_;
   RowNoiseScale averaged_;
   RowNoiseScale single_;
@@ -175,7 +183,7 @@ class Locator {
   LinePlace places_[kBatchRows];
   SettleBatch<Value> batch_;
   int row_[kBatchRows];
-  LinePlace place_[kBatchRows];
+  int place_[kBatchRows];
   std::vector<int> again_;
 };
 
