@@ -93,18 +93,18 @@ float signal_noise_gain(MeasuredRows& rows, const ExactMisfit& exact) {
   const float noise2 = profile.noise * profile.noise;
   std::vector<float> gains;
   gains.reserve(256);
-  std::vector<float> squares;
-  squares.reserve(256);
+  std::size_t large = 0;
   const std::size_t step = std::max<std::size_t>(1, profile.size() / 128);
   for (std::size_t r = step / 2; r < profile.size(); r += step) {
     const float under = profile.amplitude[r] * rows.residual_share()[r];
     if (profile.seen[r] == 0 || profile.saturated[r] != 0 || !(under > 0)) continue;
     const float square = rows.residual()[r] * per_median;
-    squares.push_back(square);
+    large += square > kMostExcess * noise2 ? 1 : 0;
     gains.push_back((square - noise2) / under);
   }
   if (gains.size() < kFewest) return 0;
-  if (median(squares) > kMostExcess * noise2) return exact_gain(rows, exact);
+  const bool median_is_large = gains.size() - large <= gains.size() / 2;
+  if (median_is_large) return exact_gain(rows, exact);
   return std::max(0.0F, median(gains));
 }
 
@@ -129,26 +129,25 @@ void work_out_sigma(MeasuredRows& rows, float gain, const ExactMisfit& exact) {
   const float* row_noise = rows.row_noise();
   const float* per_noise = rows.sigma_per_noise();
   const float* residual = rows.residual();
-  std::vector<std::uint8_t> doubtful = profile.seen;
   const float* residual_share = rows.residual_share();
   const float* position_share = rows.position_share();
   const float* amplitude = profile.amplitude.data();
-  const std::uint8_t* saturated = profile.saturated.data();
   float* sigma = profile.sigma.data();
   const float frame_noise = profile.noise;
   const float beyond_chance = mean_square_at(rows.residual_freedom, kBeyondChance);
   const std::size_t count = profile.size();
+  // Floats alone in the first loop: many rows at once.
+  const std::unique_ptr<float[]> excess(new float[count]);
   for (std::size_t r = 0; r < count; ++r) {
     const float noise = noise_about(row_noise[r], frame_noise);
     const float photons = gain * amplitude[r];
     const float expected = noise * noise + photons * residual_share[r];
     const float variance = noise * noise + photons * position_share[r];
-    const bool misfit = (saturated[r] == 0) & (residual[r] > beyond_chance * expected);
+    excess[r] = residual[r] - beyond_chance * expected;
     sigma[r] = per_noise[r] * std::sqrt(variance);
-    doubtful[r] = misfit ? doubtful[r] : std::uint8_t{0};
   }
   for (std::size_t r = 0; r < count; ++r) {
-    if (doubtful[r] == 0) continue;
+    if (!(excess[r] > 0) || profile.seen[r] == 0 || profile.saturated[r] != 0) continue;
     sigma[r] = std::max(sigma[r], per_noise[r] * misfit_beyond_chance(rows, r, gain, exact));
   }
   for (std::size_t r = 0; r < rows.sigma_step.size(); ++r) {
