@@ -2,6 +2,7 @@
 #pragma once
 
 #include <facula/acquire/core/image_view.hpp>
+#include <facula/acquire/simulate/laser_layer.hpp>
 #include <facula/acquire/simulate/light_path.hpp>
 #include <facula/acquire/simulate/object_light.hpp>
 #include <facula/acquire/simulate/ray_table.hpp>
@@ -41,7 +42,7 @@ class FrameRenderer {
  private:
   struct Light {
     Image<double> ambient;  // of every channel
-    Image<double> laser;    // as the channel sees it that sees it best
+    LaserLayer laser;       // as the channel sees it that sees it best
   };
   Light gather(const RigidTransform& world_from_camera, bool laser_on) const;
   void flicker(Image<double>& ambient, const Exposure& exposure) const;

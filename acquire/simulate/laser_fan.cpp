@@ -78,7 +78,7 @@ double LaserFan::middle_signal(const Vector3d& x, const Vector3d& surface_normal
 }
 
 double LaserFan::signal(const Vector3d& x, const Vector3d& surface_normal) const {
-  const double u = sheet_distance(x) / half_width((x - origin).norm());
+  const double u = standard_deviations(x);
   return middle_signal(x, surface_normal) * std::exp(-0.5 * u * u);
 }
 

@@ -41,6 +41,11 @@ struct LaserFan {
     return beam ? beam->half_width(from_origin) : start_half_width + divergence * from_origin;
   }
 
+  /// Distance of a point from the sheet's middle in standard deviations of its light [1].
+  double standard_deviations(const Eigen::Vector3d& x) const {
+    return sheet_distance(x) / half_width((x - origin).norm());
+  }
+
   /// Signal of a white surface at `x` with unit `surface_normal`, lit or not by the fan's middle:
   /// everything but albedo, shadow and the Gaussian across the sheet [DN]. 0 when it looks away.
   double middle_signal(const Eigen::Vector3d& x, const Eigen::Vector3d& surface_normal) const;

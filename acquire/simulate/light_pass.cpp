@@ -2,8 +2,10 @@
 #include <facula/acquire/simulate/light_pass.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -13,9 +15,18 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kLaserGrid = 4;  // sub-pixels each way where the sheet's light can come in
-constexpr int kEdgeGrid = 2;   // sub-pixels each way where only ambient light changes
+constexpr double kFaintest = 1e-6;  // of the sheet's middle, taken as dark
+constexpr int kEdgeGrid = 2;        // sub-pixels each way where only ambient light changes
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Mean of exp(-u^2 / 2) over u = off - width / 2 ... off + width / 2. Below half a standard
+// deviation the middle is as good: the rule of rectangles converges faster than any power.
+double mean_gaussian(double off, double width) {
+  if (width < 0.5) return std::exp(-0.5 * off * off);
+  const double a = (off - 0.5 * width) / std::numbers::sqrt2;
+  const double b = (off + 0.5 * width) / std::numbers::sqrt2;
+  return std::sqrt(std::numbers::pi / 2) / width * (std::erf(b) - std::erf(a));
+}
 
 }  // namespace
 
@@ -29,13 +40,13 @@ LightPass::LightPass(const LightSetting& setting, const LightPath* path)
       column_low_(static_cast<std::size_t>(setting.rays.width())),
       column_high_(static_cast<std::size_t>(setting.rays.width())) {}
 
-void LightPass::add_row(int r, int channels, double* ambient, double* laser) {
+void LightPass::add_row(int r, int channels, double* ambient, LaserLayer& laser) {
   surfaces_.advance_to(r);
   if (path_ != nullptr) find_reach(r);
   for (int c = 0; c < setting_.rays.width(); ++c) {
     Vector3d here = Vector3d::Zero();
     if (path_ != nullptr && near_sheet(c)) {
-      add_near_sheet(r, c, here, laser[c]);
+      add_near_sheet(r, c, here, laser);
     } else if (ambient != nullptr) {
       here = ambient_at(r, c);
     }
@@ -94,7 +105,7 @@ Vector3d LightPass::ambient_at(int r, int c) const {
   return sum / (kEdgeGrid * kEdgeGrid);
 }
 
-void LightPass::add_near_sheet(int r, int c, Vector3d& ambient, double& laser) {
+void LightPass::add_near_sheet(int r, int c, Vector3d& ambient, LaserLayer& laser) {
   const Surface& centre = surfaces_.at(r, c);
   const bool plane =
       surfaces_.neighbours_all(r, c, [&](const Surface& s) { return same_plane(s, centre); });
@@ -102,18 +113,44 @@ void LightPass::add_near_sheet(int r, int c, Vector3d& ambient, double& laser) {
       !plane && is_convex(centre) &&
       surfaces_.neighbours_all(r, c, [&](const Surface& s) { return same_bend(s, centre); });
   const SpotLight light = plane || bend ? common_light(r, c) : SpotLight::kUnknown;
-  double sum = 0;
-  for (int i = 0; i < kLaserGrid * kLaserGrid; ++i) {
+  std::array<Surface, kLaserSpots> spots;
+  for (int i = 0; i < kLaserSpots; ++i) {
     const Vector2d ray = setting_.rays.within(r, c, i, kLaserGrid);
-    Surface spot = plane  ? surfaces_.on_plane(centre, ray)
-                   : bend ? surfaces_.cast_on(centre.object, ray)
-                          : surfaces_.cast(ray);
+    Surface& spot = spots[static_cast<std::size_t>(i)];
+    spot = plane  ? surfaces_.on_plane(centre, ray)
+           : bend ? surfaces_.cast_on(centre.object, ray)
+                  : surfaces_.cast(ray);
     spot.light = light;
-    if (!plane && !bend) ambient += ambient_of(spot) / (kLaserGrid * kLaserGrid);
-    sum += laser_signal(spot);
+    if (!plane && !bend) ambient += ambient_of(spot) / kLaserSpots;
   }
   if (plane || bend) ambient = ambient_of(centre);
-  laser += sum / (kLaserGrid * kLaserGrid);
+  const std::array<double, kLaserSpots> light_of = laser_over(spots);
+  for (int i = 0; i < kLaserSpots; ++i) {
+    const double across = (i % kLaserGrid + 0.5) / kLaserGrid - 0.5;
+    const double down = (i / kLaserGrid + 0.5) / kLaserGrid - 0.5;
+    laser.add(r, c, across, down, light_of[static_cast<std::size_t>(i)] / kLaserSpots);
+  }
+}
+
+// Signal of the spots of a pixel. A spot is as wide as a quarter of the pixel; where the line
+// is thinner than that, its Gaussian is averaged over the spot instead of taken in the middle.
+std::array<double, LightPass::kLaserSpots> LightPass::laser_over(
+    std::array<Surface, kLaserSpots>& spots) const {
+  std::array<double, kLaserSpots> off{};  // from the sheet's middle in its standard deviations
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    off[i] = spots[i].object < 0 ? 0 : path_->fan.standard_deviations(spots[i].x);
+  }
+  constexpr std::size_t kGrid = kLaserGrid;
+  const auto step = [&](std::size_t i, std::size_t place, std::size_t stride) {
+    const std::size_t other = place > 0 ? i - stride : i + stride;
+    return spots[i].object == spots[other].object ? off[i] - off[other] : 0.0;
+  };
+  std::array<double, kLaserSpots> signal{};
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    const double width = std::hypot(step(i, i % kGrid, 1), step(i, i / kGrid, kGrid));
+    signal[i] = laser_signal(spots[i], off[i], width);
+  }
+  return signal;
 }
 
 bool LightPass::is_convex(const Surface& s) const {
@@ -144,10 +181,13 @@ const Vector3d& LightPass::ambient_of(const Surface& spot) const {
   return spot.object < 0 ? none : setting_.objects[static_cast<std::size_t>(spot.object)].ambient;
 }
 
-double LightPass::laser_signal(Surface& spot) const {
-  if (spot.object < 0 || !spot.in_reach()) return 0;
+double LightPass::laser_signal(Surface& spot, double off, double width) const {
+  if (spot.object < 0) return 0;
+  const double brightness = mean_gaussian(off, width);
+  if (brightness < kFaintest) return 0;
   const double share = setting_.objects[static_cast<std::size_t>(spot.object)].laser_share;
-  const double signal = path_->share() * share * path_->fan.signal(spot.x, spot.normal);
+  const double signal =
+      path_->share() * share * brightness * path_->fan.middle_signal(spot.x, spot.normal);
   return signal > 0 && light_at(spot) == SpotLight::kFree ? signal : 0.0;
 }
 

@@ -16,7 +16,7 @@ constexpr int kGrid = 4;  // sub-pixels each way
 MirrorView::MirrorView(const LightSetting& setting, const std::vector<LightPath>& paths)
     : setting_(setting), paths_(paths), camera_from_world_(setting.world_from_camera.inverse()) {}
 
-void MirrorView::add_pixel(int r, int c, int channels, double* ambient, double* laser) const {
+void MirrorView::add_pixel(int r, int c, int channels, double* ambient, LaserLayer& laser) const {
   const Scene& scene = setting_.scene;
   for (int i = 0; i < kGrid * kGrid; ++i) {
     const Vector2d ray = setting_.rays.within(r, c, i, kGrid);
@@ -36,7 +36,7 @@ void MirrorView::add_pixel(int r, int c, int channels, double* ambient, double* 
     const Vector3d normal = camera_from_world_.rotation * hit->normal;
     for (const LightPath& path : paths_) {
       const double signal = share * object.laser_share * path.share() * path.fan.signal(x, normal);
-      if (signal > 1e-6 && path.open(scene, hit->point)) *laser += signal;
+      if (signal > 1e-6 && path.open(scene, hit->point)) laser.add(r, c, 0, 0, signal);
     }
   }
 }

@@ -13,7 +13,7 @@ class MirrorView {
   MirrorView(const LightSetting& setting, const std::vector<LightPath>& paths);
 
   /// Adds what a pixel shows by way of a mirror, as LightPass::add_row() does.
-  void add_pixel(int r, int c, int channels, double* ambient, double* laser) const;
+  void add_pixel(int r, int c, int channels, double* ambient, LaserLayer& laser) const;
 
  private:
   const LightSetting& setting_;

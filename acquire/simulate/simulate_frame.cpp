@@ -28,6 +28,8 @@
 //
 // The integral over the pixel is a regular 4 x 4 midpoint rule where light of the sheet can come
 // in: it places a Gaussian line of sigma >= 1 px to better than 0.005 px (a test holds it to that).
+// A thinner line's Gaussian is averaged over each of the 16 spots (error functions), and under a
+// lens that blurs the spots keep their places (laser_layer.hpp).
 // Left out: light that is scattered twice, and things that are so thin (under one pixel; under two,
 // away from the sheet) that no ray meets them.
 #include <facula/acquire/simulate/frame_renderer.hpp>
@@ -40,6 +42,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace facula {
 namespace {
@@ -67,7 +70,7 @@ FrameRenderer::Light FrameRenderer::gather(const RigidTransform& world_from_came
                                            bool laser_on) const {
   const int channels = options_.colour_frames ? 3 : 1;
   Light light{{rays_.height(), rays_.width(), channels}, {}};
-  if (laser_on) light.laser = {rays_.height(), rays_.width()};
+  if (laser_on) light.laser = {rays_.height(), rays_.width(), options_.lens};
   const LightSetting setting{scene_, rays_, objects_, world_from_camera};
   std::vector<LightPath> paths;
   if (laser_on) paths = light_paths(fans_, mirrors_, world_from_camera);
@@ -75,18 +78,16 @@ FrameRenderer::Light FrameRenderer::gather(const RigidTransform& world_from_came
   const MirrorView mirror_view(setting, paths);
   for (int r = 0; r < rays_.height(); ++r) {
     double* ambient = light.ambient.row(r);
-    double* laser = laser_on ? light.laser.row(r) : nullptr;
-    first.add_row(r, channels, ambient, laser);
+    first.add_row(r, channels, ambient, light.laser);
     for (int c = 0; c < rays_.width() && !mirrors_.empty(); ++c) {
       if (first.shows_mirror(r, c)) {
-        mirror_view.add_pixel(
-            r, c, channels, ambient + c * channels, laser_on ? laser + c : nullptr);
+        mirror_view.add_pixel(r, c, channels, ambient + c * channels, light.laser);
       }
     }
   }
   for (std::size_t i = 1; i < paths.size(); ++i) {
     LightPass pass(setting, &paths[i]);
-    for (int r = 0; r < rays_.height(); ++r) pass.add_row(r, channels, nullptr, light.laser.row(r));
+    for (int r = 0; r < rays_.height(); ++r) pass.add_row(r, channels, nullptr, light.laser);
   }
   return light;
 }
@@ -121,12 +122,12 @@ Image<double> FrameRenderer::expected_signal(const RigidTransform& world_from_ca
   flicker(light.ambient, exposure);
   spread_light(light.ambient, options_.lens);
   if (exposure.laser_on) {
-    spread_light(light.laser, options_.lens);
+    Image<double> laser = std::move(light.laser).spread();
     if (options_.speckle) {
       const std::uint64_t seed = speckle_seed(options_.seed, world_from_camera);
-      apply_speckle(light.laser, *options_.speckle, seed);
+      apply_speckle(laser, *options_.speckle, seed);
     }
-    add_laser(light.ambient, light.laser, laser_response(options_));
+    add_laser(light.ambient, laser, laser_response(options_));
   }
   vignette(light.ambient, rays_, options_.lens.vignetting);
   return std::move(light.ambient);

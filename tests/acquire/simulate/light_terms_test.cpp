@@ -143,6 +143,24 @@ TEST(Lens, BlurAddsItsVarianceToTheLineAndLosesNoLight) {
   }
 }
 
+// A line of 0.1 to 0.4 px lies anywhere within a pixel; the lens must find it where it is.
+TEST(Lens, KeepsThePlaceOfALineThinnerThanAPixel) {
+  const Rig rig = small_head();
+  SimulateOptions options = quiet_options(rig);
+  options.lens.blur = 1.5;
+  for (const double sigma : {0.1, 0.2, 0.4}) {
+    options.line_divergence = 0;
+    options.line_half_width = sigma / 600 * 2;
+    for (const double depth : {1.95, 1.96, 1.97, 1.98, 1.99, 2.0}) {
+      const PolarScan truth = true_scan(scene_with({wall_at(depth)}), rig, {}, {0.0}, options);
+      const Eigen::Vector3d x = truth.point[truth.index(60, 0)].cast<double>();
+      const Moments seen = moments(light_on_wall(rig, options, depth), 60);
+      EXPECT_NEAR(seen.position, rig.camera.project(x).x(), 0.015) << sigma << " at " << depth;
+      EXPECT_NEAR(seen.variance, 1.5 * 1.5 + 1.0 / 12 + sigma * sigma, 0.03) << sigma;
+    }
+  }
+}
+
 TEST(Lens, GlareMovesItsShareAway) {
   const Rig rig = small_head();
   SimulateOptions options = quiet_options(rig);
