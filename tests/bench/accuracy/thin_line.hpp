@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace facula {
 
@@ -22,6 +23,13 @@ inline SimulateOptions thin_line_light(const Rig& rig, double distance) {
   light.laser_peak = 150 * narrower * std::hypot(s, light.lens.blur) / s / 0.8;
   return light;
 }
+
+/// Sets the exposure as a user would: the line's height, in the middle of all rows that show it
+/// from these places of the camera, becomes 150 DN.
+void expose(SimulateOptions& light,
+            const Scene& scene,
+            const Rig& rig,
+            const std::vector<RigidTransform>& world_from_camera);
 
 /// Read noise that leaves `sigma` px to each row for a line of 150 DN and 1.55 px [DN].
 inline double noise_for(double sigma) {
