@@ -18,6 +18,7 @@ struct Command {
   std::vector<std::string> examples;  ///< runnable in this order in an empty folder
   std::function<void(Arguments&)> declare;
   std::function<void(Session&)> run;  ///< throws Error
+  std::string group = {};             ///< heading in the list of commands
 };
 
 }  // namespace facula

@@ -35,7 +35,7 @@ std::string left_side(const ArgumentSpec& spec) {
 
 std::string right_side(const ArgumentSpec& spec) {
   std::string text = spec.help;
-  if (!spec.default_text.empty()) text += " (default " + spec.default_text + ")";
+  if (!spec.default_text.empty() && !spec.required) text += " (default " + spec.default_text + ")";
   if (spec.required && !spec.positional()) text += " (required)";
   if (spec.repeatable && !spec.positional()) text += " (repeatable)";
   return text;
@@ -62,20 +62,42 @@ void write_arguments(std::ostream& out, const Arguments& arguments, bool positio
   }
 }
 
+/// Name and summary of each command below the heading of its group.
+void write_commands(std::ostream& out, const std::vector<Command>& commands) {
+  std::size_t width = 0;
+  for (const Command& command : commands) width = std::max(width, command.name.size());
+  std::string group = "-";
+  for (const Command& command : commands) {
+    if (command.group != group) {
+      group = command.group;
+      out << '\n' << (group.empty() ? "Commands" : group) << ":\n";
+    }
+    out << "  " << command.name << std::string(width + 2 - command.name.size(), ' ')
+        << command.summary << '\n';
+  }
+}
+
 }  // namespace
 
 std::string program_help(const std::vector<Command>& commands) {
   std::ostringstream out;
   out << "facula turns the frames of a line-laser scanner into scans, planes, meshes and maps.\n\n"
-         "Usage: facula COMMAND [options]\n\nCommands:\n";
-  std::size_t width = 0;
-  for (const Command& command : commands) width = std::max(width, command.name.size());
-  for (const Command& command : commands) {
-    out << "  " << command.name << std::string(width + 2 - command.name.size(), ' ')
-        << command.summary << '\n';
-  }
+         "Usage: facula COMMAND [options]\n";
+  write_commands(out, commands);
   out << "\n'facula COMMAND --help' explains one of them; 'facula --version' says which build this "
          "is.\nStart with: facula demo\n";
+  return out.str();
+}
+
+std::string first_word_help(const std::string& word, const std::vector<Command>& commands) {
+  std::vector<Command> of_word;
+  for (const Command& command : commands) {
+    if (command.name.starts_with(word + " ")) of_word.push_back(command);
+  }
+  std::ostringstream out;
+  out << "Usage: facula " << word << " WHAT [options]\n";
+  write_commands(out, of_word);
+  out << "\n'facula " << word << " WHAT --help' explains one of them.\n";
   return out.str();
 }
 

@@ -11,6 +11,9 @@ namespace facula {
 /// What `facula` alone says: what it is for and its commands.
 std::string program_help(const std::vector<Command>& commands);
 
+/// What `facula calibrate` says: the commands that begin with that word.
+std::string first_word_help(const std::string& word, const std::vector<Command>& commands);
+
 /// What `facula COMMAND --help` says: description, arguments with units and defaults, examples.
 std::string command_help(const Command& command, const Arguments& arguments);
 

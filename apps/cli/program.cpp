@@ -134,29 +134,31 @@ const Command* find_command(const std::vector<std::string>& words,
   return nullptr;
 }
 
-/// The one command whose first word that is: help for 'measure' is help for 'measure planes'.
-const Command* only_command_of(const std::string& word, const std::vector<Command>& commands) {
-  const Command* found = nullptr;
+bool begins_commands(const std::string& word, const std::vector<Command>& commands) {
+  return std::any_of(commands.begin(), commands.end(), [&](const Command& command) {
+    return command.name.starts_with(word + " ");
+  });
+}
+
+/// 'facula calibrate camra': what there is to calibrate instead.
+int unknown_second_word(const std::vector<std::string>& words,
+                        const std::vector<Command>& commands) {
+  std::vector<std::string> seconds;
   for (const Command& command : commands) {
-    if (!command.name.starts_with(word + " ")) continue;
-    if (found != nullptr) return nullptr;
-    found = &command;
+    if (command.name.starts_with(words[0] + " "))
+      seconds.push_back(command.name.substr(words[0].size() + 1));
   }
-  return found;
+  const std::string near = nearest_name(words[1], seconds);
+  return complain("facula " + words[0],
+                  "expected what to " + words[0] + ", got '" + words[1] + "'; " +
+                      (near.empty() ? "'facula " + words[0] + "' alone lists it"
+                                    : "did you mean 'facula " + words[0] + " " + near + "'?"),
+                  kWrongUsage);
 }
 
 int unknown_command(const std::vector<std::string>& words, const std::vector<Command>& commands) {
   std::vector<std::string> names;
-  for (const Command& command : commands) {
-    if (command.name.starts_with(words[0] + " ")) {
-      return complain("facula " + words[0],
-                      "expected what to " + words[0] + ", got " +
-                          (words.size() > 1 ? "'" + words[1] + "'" : "nothing") +
-                          "; did you mean 'facula " + command.name + "'?",
-                      kWrongUsage);
-    }
-    names.push_back(command.name);
-  }
+  for (const Command& command : commands) names.push_back(command.name);
   const std::string typed =
       words.size() > 1 && !words[1].starts_with("-") ? words[0] + " " + words[1] : words[0];
   std::string near = nearest_name(words[0], names);
@@ -171,7 +173,8 @@ int unknown_command(const std::vector<std::string>& words, const std::vector<Com
 
 int run_program(const std::vector<std::string>& words, const std::vector<Command>& commands) {
   try {
-    if (words.empty() || words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
+    if (words.empty() || words[0] == "--help" || words[0] == "-h" ||
+        (words.size() == 1 && words[0] == "help")) {
       print(program_help(commands));
       return kOk;
     }
@@ -179,14 +182,22 @@ int run_program(const std::vector<std::string>& words, const std::vector<Command
       print(std::string("facula ") + version() + "\n");
       return kOk;
     }
+    if (words[0] == "help") {
+      // 'facula help calibrate camera' is 'facula calibrate camera --help'.
+      std::vector<std::string> asked(words.begin() + 1, words.end());
+      asked.emplace_back("--help");
+      return run_program(asked, commands);
+    }
     std::size_t taken = 0;
     const Command* command = find_command(words, commands, taken);
-    if (command == nullptr && words.size() > 1 && asks_for_help({words[1]})) {
-      command = only_command_of(words[0], commands);
-      taken = 1;
+    if (command != nullptr) {
+      return guarded_run(*command,
+                         {words.begin() + static_cast<std::ptrdiff_t>(taken), words.end()});
     }
-    if (command == nullptr) return unknown_command(words, commands);
-    return guarded_run(*command, {words.begin() + static_cast<std::ptrdiff_t>(taken), words.end()});
+    if (!begins_commands(words[0], commands)) return unknown_command(words, commands);
+    if (words.size() > 1 && !asks_for_help({words[1]})) return unknown_second_word(words, commands);
+    print(first_word_help(words[0], commands));
+    return kOk;
   } catch (const std::exception& error) {
     return complain("facula", error.what(), kFailed);
   }

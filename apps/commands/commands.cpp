@@ -20,30 +20,41 @@
 #include <facula/apps/commands/report.hpp>
 #include <facula/apps/commands/simulate.hpp>
 
+#include <string>
+#include <utility>
+
 namespace facula {
 
 std::vector<Command> all_commands() {
-  return {simulate_command(),
-          extract_command(),
-          register_command(),
-          mesh_command(),
-          measure_planes_command(),
-          measure_two_line_command(),
-          calibrate_board_command(),
-          calibrate_camera_command(),
-          calibrate_laser_command(),
-          calibrate_axis_command(),
-          calibrate_joint_command(),
-          calibrate_example_command(),
-          calibrate_range_command(),
-          calibrate_compensation_command(),
-          calibrate_profile_command(),
-          calibrate_two_line_command(),
-          design_command(),
-          map_command(),
-          info_command(),
-          report_command(),
-          demo_command()};
+  std::vector<Command> commands;
+  const auto add = [&commands](const std::string& group, std::vector<Command> more) {
+    for (Command& command : more) {
+      command.group = group;
+      commands.push_back(std::move(command));
+    }
+  };
+  add("From frames to maps",
+      {simulate_command(),
+       extract_command(),
+       register_command(),
+       mesh_command(),
+       measure_planes_command(),
+       measure_two_line_command(),
+       map_command()});
+  add("A head with a board",
+      {calibrate_camera_command(),
+       calibrate_laser_command(),
+       calibrate_axis_command(),
+       calibrate_joint_command()});
+  add("A head without a board",
+      {calibrate_range_command(),
+       calibrate_compensation_command(),
+       calibrate_profile_command(),
+       calibrate_two_line_command()});
+  add("Before there is a head",
+      {design_command(), calibrate_board_command(), calibrate_example_command()});
+  add("Look at results", {info_command(), report_command(), demo_command()});
+  return commands;
 }
 
 }  // namespace facula

@@ -36,8 +36,17 @@ ProgramRun run_line(const std::string& line, const std::filesystem::path& folder
 }
 
 const std::vector<std::string>& command_names() {
-  static const std::vector<std::string> names{
-      "simulate", "extract", "register", "mesh", "map", "measure planes", "info", "report", "demo"};
+  static const std::vector<std::string> names = [] {
+    const TemporaryFolder folder;
+    std::vector<std::string> listed;
+    std::istringstream lines(run_line("facula", folder.path()).out);
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t end = line.find("  ", 2);
+      if (line.starts_with("  ") && end != std::string::npos)
+        listed.push_back(line.substr(2, end - 2));
+    }
+    return listed;
+  }();
   return names;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/version.hpp>
+#include <facula/apps/commands/commands.hpp>
 #include <facula/tests/apps/cli/program_run.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -51,11 +53,10 @@ TEST_F(Usage, HelpFitsInTheWidthOfAScreenButForExamples) {
 }
 
 TEST_F(Usage, ProgramAloneListsEveryCommand) {
-  const ProgramRun alone = run("facula");
-  EXPECT_EQ(alone.code, 0);
-  for (const std::string& name : command_names()) {
-    EXPECT_NE(alone.out.find("  " + name + " "), std::string::npos) << name;
-  }
+  EXPECT_EQ(run("facula").code, 0);
+  std::vector<std::string> expected;
+  for (const Command& command : all_commands()) expected.push_back(command.name);
+  EXPECT_EQ(command_names(), expected);
 }
 
 TEST_F(Usage, VersionIsTheLibrarys) {
@@ -67,6 +68,8 @@ TEST_F(Usage, VersionIsTheLibrarys) {
 TEST_F(Usage, UnknownCommandSuggestsTheNearOne) {
   expect_usage_error(run("facula extrct capture"), "did you mean 'extract'?");
   expect_usage_error(run("facula measure plane x.pcd"), "facula measure planes");
+  expect_usage_error(run("facula calibrate camra x.png"), "facula calibrate camera");
+  expect_usage_error(run("facula calibrate everything"), "'facula calibrate' alone lists it");
   expect_usage_error(run("facula xyzzy"), "expected a command, got 'xyzzy'");
 }
 
@@ -99,10 +102,22 @@ TEST_F(Usage, EmptyPathsAreNamed) {
   expect_usage_error(run("facula mesh a.pcd --out ''"), "--out");
 }
 
-TEST_F(Usage, HelpOfAFirstWordIsHelpOfItsOnlyCommand) {
-  const ProgramRun help = run("facula measure --help");
-  EXPECT_EQ(help.code, 0) << help.err;
-  EXPECT_EQ(help.out, run("facula measure planes --help").out);
+TEST_F(Usage, FirstWordOfSeveralCommandsListsThem) {
+  for (const char* line :
+       {"facula calibrate", "facula calibrate --help", "facula help calibrate"}) {
+    const ProgramRun list = run(line);
+    EXPECT_EQ(list.code, 0) << list.err;
+    for (const std::string& name : command_names()) {
+      const bool expected = name.starts_with("calibrate ");
+      EXPECT_EQ(list.out.find("  " + name + " ") != std::string::npos, expected) << line << name;
+    }
+  }
+}
+
+TEST_F(Usage, HelpBeforeTheCommandIsHelpAfterIt) {
+  const ProgramRun before = run("facula help calibrate camera");
+  EXPECT_EQ(before.code, 0) << before.err;
+  EXPECT_EQ(before.out, run("facula calibrate camera --help").out);
 }
 
 TEST_F(Usage, MissingFileIsOneSentence) {
