@@ -53,7 +53,7 @@ Flicker read_flicker(TomlTable& table, const Capture& capture) {
 
 std::vector<double> read_exposures(TomlTable& table) {
   if (!table.has("exposures_ms")) return {};
-  const std::vector<double> exposures = table.numbers("exposures_ms");
+  std::vector<double> exposures = table.numbers("exposures_ms");
   require(!exposures.empty() && exposures.size() <= 16,
           table.where("exposures_ms"),
           ": expected 1 to 16 exposures, got ",
