@@ -85,7 +85,7 @@ class FirZeroCrossing : public RowDetector {
     found.snr_per_noise = top_bend * s.per_bend_noise;
     found.sigma_per_noise = s.slope_noise * (drawn2 * wider2) * per_all;
     found.position_share = share * std::sqrt(share);
-    found.saturated = row.is_clipped(static_cast<int>(found.position + 0.5F));
+    found.saturated = row.is_clipped(static_cast<int>(std::floor(found.position + 0.5F)));
     measure_misfit(row, peak, d, 0.5F * per_width2, found);
     if (found.saturated) judge_clipped(row, s.sigma, top_bend, found);
     return found;
