@@ -46,6 +46,7 @@ CsvTable CsvTable::from_file(const std::filesystem::path& path) {
   CsvTable table;
   table.path_ = path;
   std::string_view rest = text;
+  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // as spreadsheets write it
   for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
     const std::string_view line = take_line(rest);
     const std::string content = trimmed(line);
@@ -65,6 +66,11 @@ CsvTable CsvTable::from_file(const std::filesystem::path& path) {
             cells.size());
     table.rows_.push_back({line_number, std::move(cells)});
   }
+  require(table.names_.size() != 1 || table.names_[0].find_first_of(";\t") == std::string::npos,
+          path.string(),
+          ": expected commas between the columns, got '",
+          table.names_.empty() ? "" : table.names_[0],
+          "'; save it with commas, and numbers with points");
   require(!table.rows_.empty(),
           path.string(),
           ": expected a header line and rows of numbers below it, got ",

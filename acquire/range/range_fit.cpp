@@ -158,6 +158,15 @@ void check_points(const std::vector<RangePoint>& points, const RangeFitOptions& 
     require(point.distance > 0, "expected distances above 0, got ", 1000 * point.distance, " mm");
     distances.insert(point.distance);
   }
+  const auto [least, most] = std::minmax_element(
+      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.px < b.px; });
+  require(points.size() < 2 || least->px < most->px,
+          "all ",
+          points.size(),
+          " positions are equal (",
+          points.front().px,
+          " px): a line that does not move with the distance measures none; check that the "
+          "positions are those of the laser line");
   require(distances.size() != 1 || points.size() == 1,
           "all ",
           points.size(),

@@ -21,7 +21,8 @@ struct TwoLineOptions {
   TwoLineMethod method = TwoLineMethod::kStripes;
   int segments = 7;           ///< side by side about the middle of the picture [1]
   int segment_width = 50;     ///< [px]
-  double threshold = 60;      ///< of the grey picture, kHough [DN]
+  double threshold = 0;       ///< of the grey picture, kHough; 0 = half way up
+                              ///< from the background to the brightest of the segment [DN]
   double merge_distance = 8;  ///< segments closer than this are one line, kHough [px]
   StripeOptions stripe;       ///< kStripes; its direction and region are set here
   void check() const;

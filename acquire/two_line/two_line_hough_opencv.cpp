@@ -37,9 +37,52 @@ struct Crossing {
   double length = 0;  ///< [px]
 };
 
-std::vector<Crossing> crossings_of(const cv::Mat& segment, const TwoLineOptions& options) {
-  cv::Mat bright;
-  cv::threshold(segment, bright, options.threshold, 255, cv::THRESH_BINARY);
+/// The grey value below which `share` of the pixels lie, from their histogram [DN].
+int quantile(const std::vector<int>& histogram, int pixels, double share) {
+  int below = 0;
+  for (int value = 0; value < 256; ++value) {
+    below += histogram[static_cast<std::size_t>(value)];
+    if (below > share * pixels) return value;
+  }
+  return 255;
+}
+
+/// Half way up from the middle grey value to that of the brightest half per cent, which a line of
+/// light fills several times; 255, which nothing exceeds, where that does not stand out.
+double automatic_threshold(const cv::Mat& part) {
+  constexpr double kBrightest = 0.995;
+  constexpr double kLeastHeight = 8;  // [DN]
+  constexpr double kLeastRatio = 4;   // of the brightest over the scatter; noise has 2.6
+  std::vector<int> histogram(256, 0);
+  for (int v = 0; v < part.rows; ++v) {
+    for (int u = 0; u < part.cols; ++u) ++histogram[part.at<std::uint8_t>(v, u)];
+  }
+  const int pixels = part.rows * part.cols;
+  const int background = quantile(histogram, pixels, 0.5);
+  const int scatter = background - quantile(histogram, pixels, 0.159);
+  const int height = quantile(histogram, pixels, kBrightest) - background;
+  if (height < std::max(kLeastHeight, kLeastRatio * scatter)) return 255;
+  return background + 0.5 * height;
+}
+
+/// White where there is light. The lines may differ in brightness, so each side of the camera's
+/// axis has a threshold of its own where none is given.
+cv::Mat bright_part(const cv::Mat& segment, int middle, double threshold) {
+  cv::Mat bright(segment.size(), CV_8UC1);
+  for (const cv::Range& side : {cv::Range(0, middle), cv::Range(middle, segment.rows)}) {
+    if (side.empty()) continue;
+    const cv::Mat part = segment.rowRange(side);
+    cv::Mat white = bright.rowRange(side);
+    const double level = threshold > 0 ? threshold : automatic_threshold(part);
+    cv::threshold(part, white, level, 255, cv::THRESH_BINARY);
+  }
+  return bright;
+}
+
+std::vector<Crossing> crossings_of(const cv::Mat& segment,
+                                   int middle,
+                                   const TwoLineOptions& options) {
+  const cv::Mat bright = bright_part(segment, middle, options.threshold);
   cv::Mat edges;
   cv::Canny(bright, edges, 50, 150);
   std::vector<cv::Vec4i> lines;
@@ -115,12 +158,13 @@ void find_by_hough(ImageView8 frame,
     grey = difference;
   }
   const cv::Mat picture = undistorted(grey, rig.camera);
+  const int middle = std::clamp(static_cast<int>(std::lround(rig.camera.cy)), 0, picture.rows);
   for (TwoLineReading& reading : readings) {
     const int first =
         static_cast<int>(std::lround(reading.centre_px - 0.5 * (options.segment_width - 1)));
     const int last = std::min(first + options.segment_width, picture.cols);
     const cv::Mat segment = picture.colRange(std::max(0, first), last).clone();
-    const auto groups = grouped(crossings_of(segment, options), options.merge_distance);
+    const auto groups = grouped(crossings_of(segment, middle, options), options.merge_distance);
     const Group* upper = longest(groups, rig.camera.cy, true);
     const Group* lower = longest(groups, rig.camera.cy, false);
     if (upper == nullptr || lower == nullptr) {

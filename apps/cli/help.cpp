@@ -28,13 +28,26 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   return result;
 }
 
+/// A list of choices too long to stand beside its option is told in the help instead.
+bool too_long(const ArgumentSpec& spec) {
+  return !spec.positional() && spec.value_name.size() > 60;
+}
+
 std::string left_side(const ArgumentSpec& spec) {
   if (spec.positional()) return spec.repeatable ? spec.name + "..." : spec.name;
-  return spec.value_name.empty() ? spec.name : spec.name + " " + spec.value_name;
+  if (spec.value_name.empty()) return spec.name;
+  return spec.name + " " + (too_long(spec) ? "NAME" : spec.value_name);
 }
 
 std::string right_side(const ArgumentSpec& spec) {
   std::string text = spec.help;
+  if (too_long(spec)) {
+    text += ": ";
+    for (const char letter : spec.value_name) {
+      if (letter == '|') text += ", ";
+      if (letter != '|') text += letter;
+    }
+  }
   if (!spec.default_text.empty() && !spec.required) text += " (default " + spec.default_text + ")";
   if (spec.required && !spec.positional()) text += " (required)";
   if (spec.repeatable && !spec.positional()) text += " (repeatable)";

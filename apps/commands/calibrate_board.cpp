@@ -22,7 +22,7 @@ struct BoardPictureArguments {
   double nearest = 0;   ///< 0 = so that the board fills most of the image [m]
   double farthest = 0;  ///< 0 = 1.5 times the nearest [m]
   double tilt = 30 * kDegrees.factor;
-  bool laser = false;
+  bool lit = false;
   bool overwrite = false;
   std::size_t seed = 1;
   RenderBoardOptions options;
@@ -43,7 +43,7 @@ void declare(Arguments& arguments, BoardPictureArguments& a) {
   arguments.number(
       "--farthest-mm", a.farthest, kMillimetres, "greatest distance, 0 = 1.5 times the least");
   arguments.number("--tilt-deg", a.tilt, kDegrees, "how far the board is tilted");
-  arguments.flag("--laser", a.laser, "also take each picture with the lasers on (lit_...)");
+  arguments.flag("--lit", a.lit, "also take each picture with the lasers on (lit_...)");
   arguments.number("--noise-dn", a.options.noise, kGreyLevels, "of a pixel, standard deviation");
   arguments.number("--blur-px", a.options.blur, kPixels, "of the lens, standard deviation");
   arguments.whole("--seed", a.seed, "of the noise");
@@ -84,8 +84,8 @@ void run(const BoardPictureArguments& a, Session& session) {
   require(a.views >= 1 && a.views <= 1000, "--views: expected 1 to 1000, got ", a.views);
   require(
       std::abs(a.tilt) < 1.3, "--tilt-deg: expected less than 75, got ", a.tilt / kDegrees.factor);
-  require(!a.laser || !rig.lasers.empty(),
-          "--laser: rig '",
+  require(!a.lit || !rig.lasers.empty(),
+          "--lit: rig '",
           rig.name,
           "' has no [[laser]]; calibrate one or name another rig");
   a.options.check();
@@ -99,7 +99,7 @@ void run(const BoardPictureArguments& a, Session& session) {
     const std::string name = std::to_string(i) + ".png";
     write_image(folder.temporary_path() / ("dark_" + name),
                 render_board(board, rig.camera, pose, {}, options).view());
-    if (!a.laser) continue;
+    if (!a.lit) continue;
     ++options.seed;
     write_image(folder.temporary_path() / ("lit_" + name),
                 render_board(board, rig.camera, pose, rig.lasers, options).view());
@@ -121,7 +121,7 @@ Command calibrate_board_command() {
               "the camera of a rig, laser off (dark_0.png ...) and on (lit_0.png ...): to see "
               "before the real thing how well a rig, a board and a number of pictures calibrate.",
           .examples = {"facula calibrate board --rig data/rigs/ciclop_turntable.toml --board "
-                       "charuco --cols 7 --rows 5 --spacing-mm 15 --views 3 --laser --out charuco"},
+                       "charuco --cols 7 --rows 5 --spacing-mm 15 --views 3 --lit --out charuco"},
           .declare = [a](Arguments& arguments) { declare(arguments, *a); },
           .run = [a](Session& session) { run(*a, session); }};
 }

@@ -105,7 +105,7 @@ void run(const CameraArguments& a, Session& session) {
   report_views(views, result, figures);
   for (const std::string& clause : result.rejected) figures.note("Left out: " + clause + ".");
   for (const std::string& clause : result.warnings) figures.note("Warning: " + clause + ".");
-  figures.text("out", "rig", a.out.string());
+  figures.text("out", "written", a.out.string());
 }
 
 }  // namespace

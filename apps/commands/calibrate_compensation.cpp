@@ -82,8 +82,12 @@ void report(const CompensationFit& fit, const Rig& rig, Figures& figures) {
 
 void run(const CompensationArguments& a, Session& session) {
   if (!a.out.empty()) check_output(a.out, {".toml"});
+  require(a.options.window <= 1000, "--window-lines: expected 0 to 1000, got ", a.options.window);
+  require(a.options.smooth == 0 || (a.options.smooth >= 2 && a.options.smooth <= 1000),
+          "--smooth-lines: expected 0, or 2 to 1000, got ",
+          a.options.smooth);
   a.options.check();
-  Rig rig = read_rig(a.rig);
+  Rig rig = read_rig(a.rig, RigParts::kCamera);
   std::vector<PlaneView> views;
   for (const Wall& wall : read_walls(a.table, rig, a.stripe)) {
     views.push_back({millimetres(wall.distance), wall.positions});
@@ -92,7 +96,8 @@ void run(const CompensationArguments& a, Session& session) {
   report(fit, rig, session.figures);
   if (a.out.empty()) return;
   rig.compensation = std::move(fit.table);
-  write_rig(a.out, rig);
+  write_rig(a.out, rig, RigParts::kCamera);
+  session.figures.text("out", "written", a.out.string());
 }
 
 }  // namespace

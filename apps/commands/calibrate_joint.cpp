@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace facula {
 namespace {
@@ -35,7 +37,7 @@ void declare_common(Arguments& arguments, JointArguments& a) {
 
 void declare_joint(Arguments& arguments, JointArguments& a) {
   declare_common(arguments, a);
-  arguments.input("--rig", a.camera, "a rig whose camera to start from");
+  arguments.input("--rig", a.camera, "a rig whose camera to start from; its other parts are kept");
   arguments.whole("--radial-terms", a.options.radial_terms, "how many of k1, k2, k3 to estimate");
   arguments.flag("--bow", a.options.bow, "estimate the bow of each sheet, too");
 }
@@ -46,6 +48,25 @@ void declare_axis(Arguments& arguments, JointArguments& a) {
   arguments.required();
 }
 
+/// The calibrated rig with what the set says nothing about as the known rig has it.
+Rig with_parts_kept(Rig calibrated, const Rig& known) {
+  Rig rig = known;
+  rig.camera = calibrated.camera;
+  rig.covariance = std::move(calibrated.covariance);
+  for (LaserPlane& laser : calibrated.lasers) {
+    const auto same = std::find_if(rig.lasers.begin(), rig.lasers.end(), [&](const LaserPlane& l) {
+      return l.name == laser.name;
+    });
+    if (same != rig.lasers.end()) {
+      *same = std::move(laser);
+    } else {
+      rig.lasers.push_back(std::move(laser));
+    }
+  }
+  if (calibrated.axis.kind != AxisKind::kNone) rig.axis = calibrated.axis;
+  return rig;
+}
+
 void run_joint(const JointArguments& a, Session& session) {
   check_output(a.out, {".toml"});
   const CalibrationSetFile file = read_calibration_set(a.set);
@@ -53,11 +74,13 @@ void run_joint(const JointArguments& a, Session& session) {
   options.position_sigma = file.position_sigma;
   options.num_threads = session.num_threads;
   options.camera = file.camera;
-  if (!a.camera.empty()) options.camera = read_rig(a.camera, RigParts::kCamera).camera;
+  std::optional<Rig> known;
+  if (!a.camera.empty()) known = read_rig(a.camera, RigParts::kCamera);
+  if (known) options.camera = known->camera;
   JointCalibration result = calibrate_jointly(file.set, options);
-  const RigParts parts = result.rig.lasers.empty() ? RigParts::kCamera : RigParts::kWhole;
   result.rig.name = a.out.stem().string();
-  write_rig(a.out, result.rig, parts);
+  if (known) result.rig = with_parts_kept(std::move(result.rig), *known);
+  write_rig(a.out, result.rig, RigParts::kCamera);
   report_calibration(result, session.figures);
   session.figures.text("out", "written", a.out.string());
 }
@@ -87,8 +110,7 @@ void run_axis(const JointArguments& a, Session& session) {
   rig.axis = result.rig.axis;
   const RigCovariance& covariance = *result.rig.covariance;
   replace_covariance(rig, "axis.", covariance.parameters, covariance.matrix);
-  const bool measures = !rig.lasers.empty() || rig.range;
-  write_rig(a.out, rig, measures ? RigParts::kWhole : RigParts::kCamera);
+  write_rig(a.out, rig, RigParts::kCamera);
   report_calibration(result, session.figures);
   session.figures.note(
       "The camera was taken as exact: the axis' sigmas hold the noise of the board points only.");
@@ -101,13 +123,13 @@ struct ExampleArguments {
   SyntheticSetOptions options;
   double span = 0;  ///< 0 = 60 degrees, or half the distance [rad or m]
   std::size_t seed = 1;
-  bool replace = false;
+  bool overwrite = false;
 };
 
 void declare_example(Arguments& arguments, ExampleArguments& a) {
-  arguments.input("RIG", a.rig, "the rig that sees the boards");
+  arguments.input("--rig", a.rig, "the rig that sees the boards");
   arguments.required();
-  arguments.output("--out", a.out, "folder for the set");
+  arguments.output("--out", a.out, "folder of the set that is made");
   arguments.required();
   arguments.number("--distance-mm", a.options.distance, kMillimetres, "of the boards, about");
   arguments.number("--span-deg", a.span, kDegrees, "of the axis positions, 0 = 60");
@@ -120,7 +142,7 @@ void declare_example(Arguments& arguments, ExampleArguments& a) {
                    "true size of a second board on the axis over what the set says, 1 = one board");
   arguments.number("--wrong-share", a.options.wrong_share, kPlainNumber, "of board points misread");
   arguments.whole("--seed", a.seed, "of the noise");
-  arguments.flag("--replace", a.replace, "write over a set that is there");
+  arguments.flag("--overwrite", a.overwrite, "replace an earlier set in that folder");
 }
 
 void run_example(const ExampleArguments& a, Session& session) {
@@ -131,7 +153,7 @@ void run_example(const ExampleArguments& a, Session& session) {
   if (a.span > 0) options.span = a.span;
   if (rig.axis.kind == AxisKind::kLinear) options.span = 0.5 * options.distance;
   const CalibrationSet set = synthesize_calibration_set(rig, options);
-  OutputFolder folder(a.out, "calibration.toml", a.replace);
+  OutputFolder folder(a.out, "calibration.toml", a.overwrite);
   write_calibration_set(folder.temporary_path(), set);
   folder.commit();
   std::size_t lines = 0;
@@ -153,11 +175,12 @@ Command calibrate_joint_command() {
           "all views at once, robustly, and writes a rig with its covariance. The figures that "
           "count are those held out: each view as the fit without it foretells it, wrong points "
           "included. Says what the views cannot decide and which boards contradict each other.",
-      .examples = {"facula calibrate example data/rigs/ciclop_turntable.toml --out set",
-                   "facula calibrate joint set --out rig.toml",
-                   "facula calibrate example data/rigs/ciclop_turntable.toml --second-size 1.02 "
-                   "--out contradiction",
-                   "facula calibrate joint contradiction --out contradiction.toml"},
+      .examples =
+          {"facula calibrate example --rig data/rigs/ciclop_turntable.toml --out set",
+           "facula calibrate joint set --out rig.toml",
+           "facula calibrate example --rig data/rigs/ciclop_turntable.toml --second-size 1.02 "
+           "--out contradiction",
+           "facula calibrate joint contradiction --out contradiction.toml"},
       .declare = [a](Arguments& arguments) { declare_joint(arguments, *a); },
       .run = [a](Session& session) { run_joint(*a, session); }};
 }
@@ -172,7 +195,7 @@ Command calibrate_axis_command() {
           "several of its positions, with the camera of a rig taken as exact. Sheets of the rig "
           "are kept. `calibrate joint` does the same with everything else in one fit and is the "
           "better choice where the laser line is on the boards, too.",
-      .examples = {"facula calibrate example data/rigs/head_fs1500.toml --distance-mm 500 "
+      .examples = {"facula calibrate example --rig data/rigs/head_fs1500.toml --distance-mm 500 "
                    "--span-deg 50 --out set",
                    "facula calibrate axis set --rig data/rigs/head_fs1500.toml --out rig.toml"},
       .declare = [a](Arguments& arguments) { declare_axis(arguments, *a); },
@@ -188,7 +211,7 @@ Command calibrate_example_command() {
           "Writes a calibration set as a rig would see it: corners of boards held by hand and of "
           "boards at positions of the axis, laser lines on them, with noise. To try `calibrate "
           "joint` and `calibrate axis`, and to plan how many views a wanted accuracy takes.",
-      .examples = {"facula calibrate example data/rigs/ciclop_turntable.toml --out set"},
+      .examples = {"facula calibrate example --rig data/rigs/ciclop_turntable.toml --out set"},
       .declare = [a](Arguments& arguments) { declare_example(arguments, *a); },
       .run = [a](Session& session) { run_example(*a, session); }};
 }

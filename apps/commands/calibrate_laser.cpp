@@ -291,7 +291,7 @@ void run(const LaserArguments& a, Session& session) {
   report_views(pictures, best, figures);
   if (made.size() > 1) report_channels(made, figures);
   for (const std::string& clause : best.fit.warnings) figures.note("Warning: " + clause + ".");
-  figures.text("out", "rig", a.out.string());
+  figures.text("out", "written", a.out.string());
 }
 
 }  // namespace
@@ -306,7 +306,7 @@ Command calibrate_laser_command() {
               "distances. Pictures without the laser (--dark) sharpen the line on printed paper. "
               "The figure to trust is the rms of views left out of the fit.",
           .examples = {"facula calibrate board --rig data/rigs/ciclop_turntable.toml --cols 9 "
-                       "--rows 6 --spacing-mm 12 --views 4 --laser --out boards",
+                       "--rows 6 --spacing-mm 12 --views 4 --lit --out boards",
                        "facula calibrate laser boards/lit_0.png boards/lit_1.png boards/lit_2.png "
                        "boards/lit_3.png --dark boards/dark_0.png --dark boards/dark_1.png --dark "
                        "boards/dark_2.png --dark boards/dark_3.png --rig "

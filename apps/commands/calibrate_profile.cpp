@@ -17,7 +17,7 @@ struct ProfileArguments {
   std::filesystem::path table;
   std::filesystem::path rig;
   std::filesystem::path out;
-  std::optional<double> degree;
+  int degree = 0;  ///< 0 = chosen
   int max_degree = 6;
 };
 
@@ -29,7 +29,7 @@ void declare(Arguments& arguments, ProfileArguments& a) {
   arguments.required();
   arguments.input("--rig", a.rig, "the rig whose camera this is (rig.toml)");
   arguments.output("--out", a.out, "that rig with the calibration (.toml)");
-  arguments.number("--degree", a.degree, kPlainNumber, "of the polynomial; chosen if not given");
+  arguments.whole("--degree", a.degree, "of the polynomial, 0 = the one that leaves out best");
   arguments.whole("--max-degree", a.max_degree, "highest degree that is tried");
 }
 
@@ -41,13 +41,12 @@ ProfilePolynomial calibrate_polynomial(const ProfileArguments& a,
   std::vector<ProfilePoint> points;
   for (std::size_t i = 0; i < px.size(); ++i) points.push_back({px[i], sizes[i]});
   ProfilePolynomialOptions options;
+  require(a.max_degree >= 1 && a.max_degree <= 12,
+          "--max-degree: expected 1 to 12, got ",
+          a.max_degree);
+  require(a.degree <= 12, "--degree: expected 1 to 12, or 0 to have it chosen, got ", a.degree);
   options.max_degree = a.max_degree;
-  if (a.degree) {
-    require(*a.degree >= 1 && *a.degree <= 12 && *a.degree == static_cast<int>(*a.degree),
-            "expected --degree of 1 to 12, got ",
-            *a.degree);
-    options.degree = static_cast<int>(*a.degree);
-  }
+  if (a.degree > 0) options.degree = a.degree;
   const ProfilePolynomialFit fit = fit_profile_polynomial(points, options);
   figures.text("method", "method", "polynomial");
   figures.count("degree", "degree", static_cast<std::size_t>(fit.polynomial.degree()));
@@ -104,7 +103,7 @@ void run(const ProfileArguments& a, Session& session) {
   require(a.out.empty() || !a.rig.empty(), "--out needs --rig: the fit is written into a rig");
   if (!a.out.empty()) check_output(a.out, {".toml"});
   std::optional<Rig> rig;
-  if (!a.rig.empty()) rig = read_rig(a.rig);
+  if (!a.rig.empty()) rig = read_rig(a.rig, RigParts::kCamera);
   const CsvTable csv = CsvTable::from_file(a.table);
   if (csv.has("across_mm")) {
     const SheetProjection projection = calibrate_projection(csv, rig, session.figures);
@@ -113,7 +112,9 @@ void run(const ProfileArguments& a, Session& session) {
     const ProfilePolynomial polynomial = calibrate_polynomial(a, csv, session.figures);
     if (rig) rig->profile_polynomial = polynomial;
   }
-  if (!a.out.empty()) write_rig(a.out, *rig);
+  if (a.out.empty()) return;
+  write_rig(a.out, *rig);
+  session.figures.text("out", "written", a.out.string());
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ void run(const RangeArguments& a, Session& session) {
   require(a.out.empty() || !a.rig.empty(), "--out needs --rig: the model is written into a rig");
   if (!a.out.empty()) check_output(a.out, {".toml"});
   std::optional<Rig> rig;
-  if (!a.rig.empty()) rig = read_rig(a.rig);
+  if (!a.rig.empty()) rig = read_rig(a.rig, RigParts::kCamera);
   const std::vector<RangePoint> points = read_points(a, rig);
   const RangeFitOptions options = options_of(a, rig);
   const std::vector<RangeFit> fits = compare_range_models(points, options);
@@ -171,6 +171,7 @@ void run(const RangeArguments& a, Session& session) {
   if (a.replace_laser) rig->lasers.clear();
   rig->range = fit.model;
   write_rig(a.out, *rig);
+  session.figures.text("out", "written", a.out.string());
   if (!rig->lasers.empty()) {
     session.figures.note(
         "the rig keeps its laser planes, which go before the range model; "

@@ -118,8 +118,10 @@ void report(const TwoLineFit& fit,
 
 void run(const TwoLineArguments& a, Session& session) {
   if (!a.out.empty()) check_output(a.out, {".toml"});
-  TwoLineHead{.spacing = 1, .divergence = 0, .medium_index = a.medium_index}.check();
-  Rig rig = read_rig(a.rig);
+  require(a.medium_index >= 1 && a.medium_index <= 3,
+          "--medium-index: expected 1 (air) to 3, got ",
+          a.medium_index);
+  Rig rig = read_rig(a.rig, RigParts::kCamera);
   const std::vector<TwoLinePoint> points = read_points(a, rig);
   const TwoLineFit fit =
       fit_two_line(points, {.divergence = !a.parallel, .medium_index = a.medium_index});
@@ -127,6 +129,7 @@ void run(const TwoLineArguments& a, Session& session) {
   if (a.out.empty()) return;
   rig.two_line = fit.head;
   write_rig(a.out, rig);
+  session.figures.text("out", "written", a.out.string());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <facula/apps/report/png.hpp>
 
 #include <memory>
+#include <utility>
 
 namespace facula {
 namespace {
@@ -56,11 +57,23 @@ void report_wanted(const DesignArguments& a, Figures& figures) {
   }
 }
 
+void require_above_zero(const DesignArguments& a) {
+  const std::pair<const char*, double> typed[] = {{"--fs-mm2", 1e6 * a.design.fs},
+                                                  {"--pixel-um", 1e6 * a.design.pixel_size},
+                                                  {"--width-px", a.design.width},
+                                                  {"--precision-px", a.design.spot_precision},
+                                                  {"--focal-length-mm", 1000 * a.focal_length},
+                                                  {"--distance-mm", 1000 * a.distance},
+                                                  {"--error-mm", 1000 * a.error},
+                                                  {"--nearest-mm", 1000 * a.nearest.value_or(1)}};
+  for (const auto& [option, value] : typed)
+    require(value > 0, option, ": expected a number above 0, got ", value);
+}
+
 void run(const DesignArguments& a, Session& session) {
   if (!a.plot.empty()) check_output(a.plot, {".png"});
+  require_above_zero(a);
   a.design.check();
-  require(a.focal_length > 0 && a.distance > 0 && a.error > 0 && a.nearest.value_or(1) > 0,
-          "expected focal length, distances and error above 0 mm");
   Figures& figures = session.figures;
   figures.number("fs_mm2", "focal length times baseline", 1e6 * a.design.fs, 1);
   figures.number("baseline_mm", "baseline", 1000 * a.design.fs / a.focal_length, 1);

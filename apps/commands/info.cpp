@@ -39,7 +39,7 @@ void run(const InfoArguments& a, Session& session) {
   figures.text("kind", "kind", to_string(kind));
   switch (kind) {
     case FileKind::kRig:
-      return describe(read_rig(a.file), figures);
+      return describe(read_rig(a.file, RigParts::kCamera), figures);
     case FileKind::kScene:
       return describe(read_scene(a.file), figures);
     case FileKind::kCapture: {

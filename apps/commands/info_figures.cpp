@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/rig/rig_parameters.hpp>
 #include <facula/apps/cli/arguments.hpp>
 #include <facula/apps/commands/distance_figures.hpp>
 #include <facula/apps/commands/info_figures.hpp>
@@ -39,6 +40,52 @@ void describe_sigma(const std::vector<float>& sigma, Figures& figures) {
   figures.number("sigma_median_mm", "sigma, median", 1000 * spread.median, 3);
 }
 
+/// What stands in a rig for a head that was calibrated without a board.
+void describe_plain_calibrations(const Rig& rig, Figures& figures) {
+  if (rig.range) {
+    figures.number("range_slope", "range model, slope A (px mm)", 1000 * rig.range->slope, 1);
+    figures.number("range_vanishing_px", "  vanishing position", rig.range->vanishing, 3);
+    figures.number("range_bend", "  bend (1/px^2)", rig.range->bend, 10);
+  }
+  if (rig.compensation) {
+    figures.count(
+        "compensation_walls", "compensation table, walls", rig.compensation->planes().size());
+    figures.count(
+        "compensation_lines", "  lines", static_cast<std::size_t>(rig.compensation->lines()));
+  }
+  if (rig.profile_polynomial) {
+    const ProfilePolynomial& p = *rig.profile_polynomial;
+    figures.count(
+        "profile_degree", "profile polynomial, degree", static_cast<std::size_t>(p.degree()));
+    figures.numbers("profile_from_to_px", "  from, to", {p.lowest_px, p.highest_px}, 2);
+  }
+  figures.flag("profile_projection", "projection of the sheet", rig.profile_projection.has_value());
+  if (rig.two_line) {
+    figures.number(
+        "two_line_spacing_mm", "two-line head, spacing", 1000 * rig.two_line->spacing, 3);
+    figures.number("two_line_drift", "  drift (mm per m)", 1000 * rig.two_line->divergence, 3);
+    figures.number("two_line_medium_index", "  medium index", rig.two_line->medium_index, 3);
+  }
+}
+
+/// Which parameters the rig knows how well.
+void describe_covariance(const Rig& rig, Figures& figures) {
+  figures.flag("covariance", "covariance", rig.covariance.has_value());
+  if (!rig.covariance) {
+    figures.note(
+        "The rig has no covariance: the sigmas of its points hold the noise of the line alone, not "
+        "that of the calibration; 'facula calibrate joint' estimates it.");
+    return;
+  }
+  FigureTable table{"parameters",
+                    "Parameters and their sigma:",
+                    {{"name", "name", 0}, {"sigma", "sigma", 6}},
+                    {}};
+  for (const std::string& name : rig.covariance->parameters)
+    table.rows.push_back({name, parameter_sigma(rig, name)});
+  figures.table(std::move(table));
+}
+
 }  // namespace
 
 void describe(const Rig& rig, Figures& figures) {
@@ -48,6 +95,12 @@ void describe(const Rig& rig, Figures& figures) {
   figures.count("image_height_px", "image height", static_cast<std::size_t>(camera.height));
   figures.numbers("focal_length_px", "focal length x y", {camera.fx, camera.fy}, 2);
   figures.numbers("principal_point_px", "principal point x y", {camera.cx, camera.cy}, 2);
+  figures.numbers("distortion",
+                  "distortion k1 k2 p1 p2 k3",
+                  {camera.k1, camera.k2, camera.p1, camera.p2, camera.k3},
+                  5);
+  figures.text(
+      "stripe", "stripe", rig.stripe_direction == StripeDirection::kPerRow ? "upright" : "level");
   figures.text("axis", "axis", to_string(rig.axis.kind));
   figures.count("lasers", "laser planes", rig.lasers.size());
   FigureTable table{"laser_planes",
@@ -56,13 +109,20 @@ void describe(const Rig& rig, Figures& figures) {
                      {"normal_x", "nx", 5},
                      {"normal_y", "ny", 5},
                      {"normal_z", "nz", 5},
-                     {"distance_mm", "distance", 3}},
+                     {"distance_mm", "distance", 3},
+                     {"bow_deg", "bow", 3}},
                     {}};
   for (const LaserPlane& laser : rig.lasers) {
-    table.rows.push_back(
-        {laser.name, laser.normal.x(), laser.normal.y(), laser.normal.z(), 1000 * laser.distance});
+    table.rows.push_back({laser.name,
+                          laser.normal.x(),
+                          laser.normal.y(),
+                          laser.normal.z(),
+                          1000 * laser.distance,
+                          laser.bow / kDegrees.factor});
   }
-  figures.table(std::move(table));
+  if (!table.rows.empty()) figures.table(std::move(table));
+  describe_plain_calibrations(rig, figures);
+  describe_covariance(rig, figures);
 }
 
 void describe(const Scene& scene, Figures& figures) {

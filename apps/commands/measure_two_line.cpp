@@ -40,7 +40,10 @@ void declare(Arguments& arguments, FrameArguments& a) {
   arguments.whole("--segments", a.options.segments, "side by side about the middle");
   arguments.whole("--segment-px", a.options.segment_width, "width of a segment in pixels");
   arguments.number(
-      "--threshold-dn", a.options.threshold, kGreyLevels, "of the grey picture, for hough");
+      "--threshold-dn",
+      a.options.threshold,
+      kGreyLevels,
+      "of the grey picture, for hough; 0 = half way from the background to the brightest");
   arguments.number("--merge-px",
                    a.options.merge_distance,
                    kPixels,
@@ -113,7 +116,9 @@ Command measure_two_line_command() {
       .examples = {"facula simulate data/scenes/wall_ahead.toml --rig data/rigs/two_line_air.toml "
                    "--conditions data/conditions/two_lines.toml --out wall",
                    "facula measure two-line wall/frames/0000.png --rig "
-                   "data/rigs/two_line_air.toml --spacing-mm 100"},
+                   "data/rigs/two_line_air.toml --spacing-mm 100",
+                   "facula measure two-line wall/frames/0000.png --rig "
+                   "data/rigs/two_line_air.toml --spacing-mm 100 --method hough"},
       .declare = [a](Arguments& arguments) { declare(arguments, *a); },
       .run = [a](Session& session) { run(*a, session); }};
 }

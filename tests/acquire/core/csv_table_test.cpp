@@ -25,6 +25,14 @@ TEST(CsvTable, ReadsColumnsByNameInTheLibrarysUnits) {
   EXPECT_EQ(table.texts("distance_mm"), (std::vector<std::string>{"1000", "5e2"}));
 }
 
+TEST(CsvTable, TakesTheMarkThatSpreadsheetsWriteFirst) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("t.csv",
+                                 "\xEF\xBB\xBF"
+                                 "distance_mm,b\r\n5,2\r\n");
+  EXPECT_EQ(CsvTable::from_file(file).column({"distance_mm"}), std::vector<double>{0.005});
+}
+
 TEST(CsvTable, SaysWhereItCannotRead) {
   const TemporaryFolder folder;
   const auto said = [&](const std::string& text) {
@@ -33,6 +41,7 @@ TEST(CsvTable, SaysWhereItCannotRead) {
   };
   EXPECT_NE(said("").find("an empty table"), std::string::npos);
   EXPECT_NE(said("# only\n").find("an empty table"), std::string::npos);
+  EXPECT_NE(said("a_px;b\n1;2\n").find("expected commas"), std::string::npos);
   EXPECT_NE(said("a_px,b\n").find("the header alone"), std::string::npos);
   EXPECT_NE(said("a_px,b\n1,2\n3\n").find("line 3: expected 2 cells"), std::string::npos);
   EXPECT_NE(said("a_px,b\n1,2\nx,4\n").find("line 3: expected a finite number in column a_px"),
