@@ -173,8 +173,10 @@ JointSolution fit_robustly(const JointFreedom& freedom,
   }
   noise_by_median(residual_sizes(state, sights), options, noise);
   for (int round = 0; round < 2; ++round) {
+    const JointNoise before = noise;
     solve_joint(sights, robust, noise, false, state);
     noise_by_median(residual_sizes(state, sights), options, noise);
+    if (before.point_sigma == noise.point_sigma && before.line_ratio == noise.line_ratio) break;
   }
   JointSolution solution;
   for (int round = 0; round < kRounds; ++round) {

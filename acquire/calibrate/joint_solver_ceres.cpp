@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <facula/acquire/calibrate/joint_costs.hpp>
+#include <facula/acquire/calibrate/joint_costs_bridge.hpp>
 #include <facula/acquire/calibrate/joint_solver.hpp>
 #include <facula/acquire/core/error.hpp>
 
@@ -17,26 +17,6 @@ namespace {
 
 constexpr double kScalePrior = 0.3;  // keeps a scale that nothing ties down from running away [1]
 
-template <typename Cost, int kResiduals, int... kSizes>
-std::unique_ptr<ceres::CostFunction> autodiff(Cost cost) {
-  return std::make_unique<ceres::AutoDiffCostFunction<Cost, kResiduals, kSizes...>>(
-      new Cost(std::move(cost)));
-}
-
-/// Derivative of the pixel by the normalized point, inverted.
-Eigen::Matrix2d normalized_per_pixel(const Camera& camera, const Eigen::Vector2d& normalized) {
-  constexpr double kStep = 1e-6;
-  Eigen::Matrix2d forward;
-  for (int k = 0; k < 2; ++k) {
-    const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(k);
-    forward.col(k) =
-        (camera.distort(normalized + step) - camera.distort(normalized - step)) / (2 * kStep);
-  }
-  forward.row(0) *= camera.fx;
-  forward.row(1) *= camera.fy;
-  return forward.inverse();
-}
-
 /// The names of one block's numbers, and from its numbers to the names' units.
 struct BlockNames {
   std::vector<std::string> names;
@@ -50,7 +30,7 @@ BlockNames block_names(const std::vector<std::string>& names) {
 }
 
 /// One least squares being built, solved and taken apart. Blocks hold changes from the state.
-class JointProblem {
+class JointProblem final : public ceres::EvaluationCallback {
  public:
   JointProblem(const std::vector<JointSight>& sights,
                const JointFreedom& freedom,
@@ -62,15 +42,32 @@ class JointProblem {
     poses_.assign(state.poses.size(), {});
     scales_.assign(state.scales.size(), 0.0);
     positions_.assign(state.positions.size(), 0.0);
+    views_.resize(sights.size());
+    sheets_.resize(state.rig.lasers.size());
+    PrepareForEvaluation(true, true);
     if (freedom.robust_scale > 0) loss_ = std::make_unique<ceres::CauchyLoss>(freedom.robust_scale);
     ceres::Problem::Options options;
     options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.evaluation_callback = this;
     problem_ = std::make_unique<ceres::Problem>(options);
     for (std::size_t i = 0; i < sights.size(); ++i) {
       if (freedom.sights[i]) add_sight(i);
     }
     add_priors();
     hold_the_rest();
+  }
+
+  /// What the residuals of a view share.
+  void PrepareForEvaluation(bool /*jacobians*/, bool new_point) override {
+    if (!new_point) return;
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      if (!freedom_.sights[i]) continue;
+      const JointViewChange change{poses_[sights_[i].pose].data(), axis(), &positions_[i]};
+      views_[i] = joint_view_pose(state_, sights_, i, change);
+    }
+    for (std::size_t l = 0; l < sheets_.size(); ++l) {
+      sheets_[l] = joint_sheet(state_.rig.lasers[l], laser(l));
+    }
   }
 
   void solve() {
@@ -158,28 +155,22 @@ class JointProblem {
 
   void add_sight(std::size_t i) {
     const JointSight& sight = sights_[i];
-    const JointBase base{state_, sight, state_.positions[i]};
-    double* pose = poses_[sight.pose].data();
-    double* scale = &scales_[sight.board];
+    std::vector<double*> blocks{camera(), poses_[sight.pose].data(), &scales_[sight.board]};
+    if (sight.placed) blocks.insert(blocks.end(), {axis(), &positions_[i]});
     for (const JointPoint& point : sight.points) {
       if (point.wrong) continue;
-      PointCost cost{base, point, noise_.point_sigma};
       solution_.residuals += 2;
-      if (sight.placed) {
-        problem_->AddResidualBlock(autodiff<PointCost, 2, 9, 6, 1, 4, 1>(cost).release(),
-                                   loss_.get(),
-                                   {camera(), pose, scale, axis(), &positions_[i]});
-      } else {
-        problem_->AddResidualBlock(
-            autodiff<PointCost, 2, 9, 6, 1>(cost).release(), loss_.get(), {camera(), pose, scale});
-      }
+      problem_->AddResidualBlock(
+          new JointPointCost(state_, sight, point, noise_.point_sigma, views_[i]),
+          loss_.get(),
+          blocks);
     }
     for (std::size_t p = 0; freedom_.lines && p < sight.lines.size(); ++p) {
-      if (!sight.lines[p].wrong) add_line_point(i, p, base);
+      if (!sight.lines[p].wrong) add_line_point(i, p);
     }
   }
 
-  void add_line_point(std::size_t i, std::size_t p, const JointBase& base) {
+  void add_line_point(std::size_t i, std::size_t p) {
     const JointSight& sight = sights_[i];
     const JointLinePoint& point = sight.lines[p];
     const Camera& c = state_.rig.camera;
@@ -188,40 +179,33 @@ class JointProblem {
     if (!normalized || !std::isfinite(slope)) return;
     const LaserPlane& plane = state_.rig.lasers[point.laser];
     const bool bends = plane.bow != 0 || is_free("laser." + plane.name + ".bow_rad");
-    LineCost cost{base,
-                  point,
-                  *normalized,
-                  normalized_per_pixel(c, *normalized),
-                  slope * point.sigma * noise_.line_ratio,
-                  bends};
+    const double unchanged[9] = {};
+    const JointLineBase base{c,
+                             plane,
+                             *normalized,
+                             joint_pixel(c, unchanged, *normalized).by_normalized.inverse(),
+                             slope * point.sigma * noise_.line_ratio,
+                             bends};
     solution_.residuals += 1;
-    double* pose = poses_[sight.pose].data();
-    if (sight.placed) {
-      problem_->AddResidualBlock(autodiff<LineCost, 1, 9, 4, 6, 4, 1>(cost).release(),
-                                 loss_.get(),
-                                 {camera(), laser(point.laser), pose, axis(), &positions_[i]});
-    } else {
-      problem_->AddResidualBlock(autodiff<LineCost, 1, 9, 4, 6>(cost).release(),
-                                 loss_.get(),
-                                 {camera(), laser(point.laser), pose});
-    }
+    std::vector<double*> blocks{camera(), laser(point.laser), poses_[sight.pose].data()};
+    if (sight.placed) blocks.insert(blocks.end(), {axis(), &positions_[i]});
+    problem_->AddResidualBlock(
+        new JointLineCost(base, point.pixel, sight.placed, views_[i], sheets_[point.laser]),
+        loss_.get(),
+        blocks);
   }
 
   void add_priors() {
     for (std::size_t b = 0; b < scales_.size(); ++b) {
       if (!freedom_.scales[b] || !problem_->HasParameterBlock(&scales_[b])) continue;
       problem_->AddResidualBlock(
-          autodiff<PriorCost, 1, 1>({state_.scales[b] - 1, kScalePrior}).release(),
-          nullptr,
-          &scales_[b]);
+          new JointPriorCost(state_.scales[b] - 1, kScalePrior), nullptr, &scales_[b]);
     }
     for (std::size_t i = 0; i < positions_.size() && noise_.position_sigma > 0; ++i) {
       if (!problem_->HasParameterBlock(&positions_[i])) continue;
       const double offset = state_.positions[i] - sights_[i].position;
       problem_->AddResidualBlock(
-          autodiff<PriorCost, 1, 1>({offset, noise_.position_sigma}).release(),
-          nullptr,
-          &positions_[i]);
+          new JointPriorCost(offset, noise_.position_sigma), nullptr, &positions_[i]);
     }
   }
 
@@ -282,6 +266,8 @@ class JointProblem {
   std::vector<std::array<double, 6>> poses_;
   std::vector<double> scales_;
   std::vector<double> positions_;
+  std::vector<JointViewPose> views_;  ///< where the boards stand at the solver's parameters
+  std::vector<JointSheet> sheets_;
   std::unique_ptr<ceres::LossFunction> loss_;
   std::unique_ptr<ceres::Problem> problem_;
   std::vector<double*> free_blocks_;  ///< first those of the rig and the scales
@@ -296,6 +282,7 @@ void JointProblem::find_covariance() {
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = free_blocks_;
   ceres::CRSMatrix crs;
+  PrepareForEvaluation(true, true);
   problem_->Evaluate(options, nullptr, nullptr, nullptr, &crs);
   const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> jacobian(
       crs.num_rows,
