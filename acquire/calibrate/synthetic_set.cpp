@@ -10,8 +10,7 @@
 namespace facula {
 namespace {
 
-constexpr double kWidthShare = 0.53;  // of the distance: the board then fills most of an image
-constexpr int kTries = 2000;          // for a board that is seen
+constexpr int kTries = 2000;  // for a board that is seen
 
 double between(Random& random, double low, double high) {
   return low + (high - low) * random.uniform();
@@ -59,11 +58,11 @@ RigidTransform leaning_board(const Board& board,
   return pose;
 }
 
-/// A point of a sheet near a random place of the image, `depth` from the camera; without lasers a
-/// point anywhere.
-std::optional<Eigen::Vector3d> random_centre(Scene& scene, std::size_t view) {
+/// A point of a sheet near a random place of the image, about `distance` from the camera; without
+/// lasers a point anywhere.
+std::optional<Eigen::Vector3d> random_centre(Scene& scene, double distance, std::size_t view) {
   const Camera& c = scene.rig.camera;
-  const double depth = scene.options.distance * between(scene.random, 0.75, 1.35);
+  const double depth = distance * between(scene.random, 0.75, 1.35);
   const double u = between(scene.random, 0.25, 0.75) * c.width;
   const double v = between(scene.random, 0.25, 0.75) * c.height;
   Eigen::Vector3d x((u - c.cx) / c.fx * depth, (v - c.cy) / c.fy * depth, depth);
@@ -145,7 +144,7 @@ void add_hand_views(Scene& scene, CalibrationSet& set) {
   for (int v = 0; v < scene.options.hand_views; ++v) {
     std::optional<JointView> view;
     for (int attempt = 0; attempt < kTries && !view; ++attempt) {
-      const auto centre = random_centre(scene, static_cast<std::size_t>(v));
+      const auto centre = random_centre(scene, scene.options.distance, static_cast<std::size_t>(v));
       if (!centre) continue;
       const RigidTransform pose = leaning_board(set.boards[0], *centre, 0.9, scene.random);
       view = view_of(scene, set.boards[0], pose, 1);
@@ -178,12 +177,15 @@ std::vector<JointView> views_of_placement(Scene& scene,
 void add_axis_views(Scene& scene, CalibrationSet& set) {
   const std::size_t b = set.boards.size() - 1;
   const double size = b == 0 ? 1 : scene.options.second_scale;
+  const double distance =
+      scene.options.axis_distance > 0 ? scene.options.axis_distance : scene.options.distance;
   for (int p = 0; p < scene.options.placements; ++p) {
     std::vector<JointView> views;
     for (int attempt = 0; attempt < kTries; ++attempt) {
-      const auto centre = random_centre(scene, static_cast<std::size_t>(p));
+      const auto centre = random_centre(scene, distance, static_cast<std::size_t>(p));
       if (!centre) continue;
-      const RigidTransform pose = leaning_board(set.boards[b], *centre, 0.5, scene.random);
+      const RigidTransform pose =
+          leaning_board(set.boards[b], *centre, scene.options.axis_tilt, scene.random);
       views =
           views_of_placement(scene, set.boards[b], scene.rig.axis.scan_from_camera * pose, size);
       if (views.size() >= 3) break;
@@ -207,6 +209,15 @@ void SyntheticSetOptions::check() const {
   require(distance > 0 && distance < 1000,
           "distance: expected above 0 and below 1000 m, got ",
           distance);
+  require(axis_distance >= 0 && axis_distance < 1000,
+          "axis_distance: expected 0 or more and below 1000 m, got ",
+          axis_distance);
+  require(board_share > 0 && board_share < 100,
+          "board_share: expected above 0 and below 100, got ",
+          board_share);
+  require(axis_tilt >= 0 && axis_tilt < 1.5,
+          "axis_tilt: expected 0 or more and below 1.5 rad, got ",
+          axis_tilt);
   require(hand_views >= 0 && placements >= 0 && hand_views <= 1000 && placements <= 1000,
           "hand_views and placements: expected 0 to 1000 each");
   require(positions >= 3 && positions <= 1000, "positions: expected 3 to 1000, got ", positions);
@@ -231,7 +242,7 @@ CalibrationSet synthesize_calibration_set(const Rig& rig, const SyntheticSetOpti
   Board board;
   board.cols = options.board_cols;
   board.rows = options.board_rows;
-  board.spacing = kWidthShare * options.distance / (options.board_cols - 1);
+  board.spacing = options.board_share * options.distance / (options.board_cols - 1);
   set.boards.assign(static_cast<std::size_t>(options.boards), board);
   for (const LaserPlane& laser : rig.lasers) set.lasers.push_back(laser.name);
   set.axis = rig.axis.kind;
