@@ -15,6 +15,7 @@ Eigen::VectorXd geometric_median(const std::vector<Eigen::VectorXd>& votes,
   Eigen::VectorXd centre(votes.front().size());
   for (Eigen::Index d = 0; d < centre.size(); ++d) {
     std::vector<double> values;
+    values.reserve(votes.size());
     for (const Eigen::VectorXd& v : votes) values.push_back(v[d]);
     centre[d] = median(values);
   }

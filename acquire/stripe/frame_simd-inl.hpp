@@ -8,6 +8,8 @@
 #define FACULA_FRAME_SIMD
 #endif
 
+#include <cmath>
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -22,8 +24,8 @@ struct GreyRows {
   RowPart<Value> row(int r) const { return {frame.row(r), 0, frame.cols}; }
   int rows() const { return frame.rows; }
   int cols() const { return frame.cols; }
-  void Make(int, int) const {}
-  const Value* MakeOne(int r) const { return frame.row(r); }
+  void make(int, int) const {}
+  const Value* make_one(int r) const { return frame.row(r); }
   bool has_flags() const { return false; }
   bool is_clipped(int r, int c) const {
     return frame.row(r)[std::clamp(c, 0, frame.cols - 1)] == 255;
@@ -38,13 +40,13 @@ class MadeRows {
   MadeRows(const StripeView& view, Channel channel)
       : view_(view), channel_(channel), values_(kBatchRows * width()) {}
 
-  void Make(int first, int count) {
+  void make(int first, int count) {
     first_ = first;
-    for (int q = 0; q < count; ++q) MakeRow(first + q, q);
+    for (int q = 0; q < count; ++q) make_row(first + q, q);
   }
   /// One row alone, in place of what was made before.
-  const Value* MakeOne(int r) {
-    MakeRow(r, 0);
+  const Value* make_one(int r) {
+    make_row(r, 0);
     return values_.data();
   }
   RowPart<Value> row(int r) const {
@@ -61,9 +63,9 @@ class MadeRows {
 
  private:
   std::size_t width() const { return static_cast<std::size_t>(cols()); }
-  void MakeRow(int r, int q) {
+  void make_row(int r, int q) {
     Value* to = values_.data() + static_cast<std::size_t>(q) * width();
-    ReadSignalRow(view_.frame, view_.background, r, channel_, to);
+    read_signal_row_of(view_.frame, view_.background, r, channel_, to);
   }
 
   StripeView view_;
@@ -82,8 +84,8 @@ struct SignalRows {
   }
   int rows() const { return signal.rows(); }
   int cols() const { return signal.cols(); }
-  void Make(int, int) const {}
-  const Value* MakeOne(int r) const { return signal.row(r).values; }
+  void make(int, int) const {}
+  const Value* make_one(int r) const { return signal.row(r).values; }
   bool has_flags() const { return true; }
   bool is_clipped(int r, int c) const { return signal.row(r).is_clipped(c); }
 };
@@ -107,7 +109,7 @@ class Locator {
   bool empty() const { return range_.first >= range_.last; }
 
   /// Rows [first, first + count), a whole number of groups but for the last.
-  void Locate(int first, int count, StripeLocation& location) {
+  void locate(int first, int count, StripeLocation& location) {
     again_.clear();
     int groups = 0;
     for (int i = 0; i < count; i += kRowsAtOnce, ++groups) {
@@ -116,23 +118,23 @@ class Locator {
             rows_.row(std::min(first + i + k, last_ - 1)).values;
       }
     }
-    search_.Search(groups_, groups, averaged_, places_);
+    search_.search(groups_, groups, averaged_, places_);
     batch_.count = 0;
     for (int i = 0; i < count; ++i) {
       const int g = i / kRowsAtOnce;
       if (places_[g].column < 0) {
         again_.push_back(first + i);
       } else {
-        Add(first + i, groups_[g][static_cast<std::size_t>(i % kRowsAtOnce)], g);
+        add(first + i, groups_[g][static_cast<std::size_t>(i % kRowsAtOnce)], g);
       }
     }
-    Settle(true, location);
-    if (!again_.empty()) LocateAlone(location);
+    settle(true, location);
+    if (!again_.empty()) locate_alone(location);
   }
 
  private:
   /// Row r is to be settled where places_[place] says.
-  HWY_INLINE void Add(int r, const Value* values, int place) {
+  HWY_INLINE void add(int r, const Value* values, int place) {
     const int q = batch_.count++;
     batch_.rows[q] = {values, 0, cols_};
     batch_.column[q] = static_cast<std::int16_t>(places_[place].column);
@@ -141,8 +143,8 @@ class Locator {
   }
 
   /// Rows that do not show the line of their group are looked at again where `may_repeat`.
-  void Settle(bool may_repeat, StripeLocation& location) {
-    SettleRows(plan_, batch_);
+  void settle(bool may_repeat, StripeLocation& location) {
+    settle_rows(plan_, batch_);
     for (int q = 0; q < batch_.count; ++q) {
       const SettledLine line = {batch_.column[q] + batch_.shift[q], batch_.drop[q]};
       const bool settled =
@@ -158,17 +160,17 @@ class Locator {
     }
   }
 
-  void LocateAlone(StripeLocation& location) {
+  void locate_alone(StripeLocation& location) {
     const int count = static_cast<int>(again_.size());
     for (int i = 0; i < count; ++i) {
       groups_[i].fill(rows_.row(again_[static_cast<std::size_t>(i)]).values);
     }
-    search_.Search(groups_, count, single_, places_);
+    search_.search(groups_, count, single_, places_);
     batch_.count = 0;
     for (int i = 0; i < count; ++i) {
-      if (places_[i].column >= 0) Add(again_[static_cast<std::size_t>(i)], groups_[i][0], i);
+      if (places_[i].column >= 0) add(again_[static_cast<std::size_t>(i)], groups_[i][0], i);
     }
-    Settle(false, location);
+    settle(false, location);
   }
 
   const Rows& rows_;
@@ -194,7 +196,7 @@ class Measurer {
   Measurer(const Rows& rows, const StripePlan& plan) : rows_(rows), plan_(plan) {}
 
   /// Rows [first, first + count) about their peaks.
-  void Measure(int first, int count, const StripeLocation& location, MeasuredRows& measured) {
+  void measure(int first, int count, const StripeLocation& location, MeasuredRows& measured) {
     for (int q = 0; q < count; ++q) {
       const int peak = location.peak[static_cast<std::size_t>(first + q)];
       batch_.rows[q] = rows_.row(first + q);
@@ -203,7 +205,7 @@ class Measurer {
       if (!held) batch_.rows[q] = {kNothing, 0, kMostWindow};
     }
     batch_.count = count;
-    MeasureRowsOfBatch(plan_, batch_);
+    measure_rows_of_batch(plan_, batch_);
     const auto r = static_cast<std::size_t>(first);
     const auto n = static_cast<std::size_t>(count);
     const auto copy = [&](const float* from, float* to) { std::copy_n(from, n, to + r); };
@@ -220,30 +222,30 @@ class Measurer {
     for (std::size_t q = 0; q < n; ++q) {
       profile.seen[r + q] = batch_.column[q] >= 0 && batch_.found[q] != 0 ? 1 : 0;
     }
-    if (batch_.any_clipped || rows_.has_flags()) JudgeClipped(first, count, measured);
+    if (batch_.any_clipped || rows_.has_flags()) judge_clipped_rows(first, count, measured);
   }
 
  private:
   static constexpr typename Rows::Value kNothing[kMostWindow] = {};
 
-  void JudgeClipped(int first, int count, MeasuredRows& measured) {
+  void judge_clipped_rows(int first, int count, MeasuredRows& measured) {
     for (int q = 0; q < count; ++q) {
       const auto r = static_cast<std::size_t>(first + q);
       const float position = batch_.position[q];
       if (measured.profile.seen[r] == 0) continue;
-      if (!rows_.is_clipped(first + q, static_cast<int>(position + 0.5F))) continue;
+      if (!rows_.is_clipped(first + q, static_cast<int>(std::floor(position + 0.5F)))) continue;
       measured.profile.saturated[r] = 1;
       StripeCandidate found;
       found.position = position;
       found.background = batch_.background[q];
       found.sigma_per_noise = batch_.sigma_per_noise[q];
-      JudgeRow(first + q, batch_.top_bend[q], found);
+      judge_row(first + q, batch_.top_bend[q], found);
       measured.sigma_per_noise()[r] = found.sigma_per_noise;
       measured.set_sigma_step(r, found.sigma_step);
     }
   }
 
-  void JudgeRow(int r, float bend, StripeCandidate& found) {
+  void judge_row(int r, float bend, StripeCandidate& found) {
     const RowPart<typename Rows::Value> row = rows_.row(r);
     values_.assign(row.values, row.values + (row.end - row.begin));
     flags_.resize(values_.size());
@@ -262,55 +264,56 @@ class Measurer {
 };
 
 template <typename Rows>
-void LocateAndMeasure(Rows rows,
-                      const StripeOptions& options,
-                      StripeLocation& location,
-                      MeasuredRows* measured) {
+void locate_and_measure(Rows rows,
+                        const StripeOptions& options,
+                        StripeLocation& location,
+                        MeasuredRows* measured) {
   const StripePlan& plan = plan_for(options.sigma);
   const SearchArea area = search_area(rows.rows(), rows.cols(), options);
-  location.noise = EstimateNoise(rows.rows(), rows.cols(), [&](int r) { return rows.MakeOne(r); });
+  location.noise =
+      estimate_noise(rows.rows(), rows.cols(), [&](int r) { return rows.make_one(r); });
   Locator<Rows> locator(rows, plan, area, location.noise);
   Measurer<Rows> measurer(rows, plan);
   if (measured != nullptr && area.last - area.first < rows.rows()) measured->clear();
   for (int r = area.first; r < area.last && !locator.empty(); r += kBatchRows) {
     const int count = std::min(kBatchRows, area.last - r);
-    rows.Make(r, count);
-    locator.Locate(r, count, location);
-    if (measured != nullptr) measurer.Measure(r, count, location, *measured);
+    rows.make(r, count);
+    locator.locate(r, count, location);
+    if (measured != nullptr) measurer.measure(r, count, location, *measured);
   }
 }
 
-bool MeasureFrame(const StripeView& view,
-                  const StripeOptions& options,
-                  StripeLocation& location,
-                  MeasuredRows* measured) {
+bool measure_frame(const StripeView& view,
+                   const StripeOptions& options,
+                   StripeLocation& location,
+                   MeasuredRows* measured) {
   if (view.frame.channels == 1 && view.background.empty()) {
-    LocateAndMeasure(GreyRows{view.frame}, options, location, measured);
+    locate_and_measure(GreyRows{view.frame}, options, location, measured);
   } else {
-    LocateAndMeasure(MadeRows(view, options.channel), options, location, measured);
+    locate_and_measure(MadeRows(view, options.channel), options, location, measured);
   }
   measured->profile.noise = location.noise;
   measured->residual_freedom = plan_for(options.sigma).shape.misfit_freedom();
   return true;
 }
 
-bool LocateSignal(const StripeSignal& signal,
-                  const StripeOptions& options,
-                  StripeLocation& location) {
-  LocateAndMeasure(SignalRows{signal}, options, location, nullptr);
+bool locate_signal(const StripeSignal& signal,
+                   const StripeOptions& options,
+                   StripeLocation& location) {
+  locate_and_measure(SignalRows{signal}, options, location, nullptr);
   return true;
 }
 
-bool MeasureSignal(const StripeSignal& signal,
-                   const StripeLocation& location,
-                   const StripeOptions& options,
-                   MeasuredRows& measured) {
+bool measure_signal(const StripeSignal& signal,
+                    const StripeLocation& location,
+                    const StripeOptions& options,
+                    MeasuredRows& measured) {
   const StripePlan& plan = plan_for(options.sigma);
   const SignalRows rows{signal};
   Measurer<SignalRows> measurer(rows, plan);
   const int all = static_cast<int>(location.size());
   for (int r = 0; r < all; r += kBatchRows) {
-    measurer.Measure(r, std::min(kBatchRows, all - r), location, measured);
+    measurer.measure(r, std::min(kBatchRows, all - r), location, measured);
   }
   measured.residual_freedom = plan.shape.misfit_freedom();
   return true;

@@ -16,50 +16,50 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-HWY_INLINE hn::Vec<hn::ScalableTag<std::int16_t>> LoadWide(const std::uint8_t* from) {
+HWY_INLINE hn::Vec<hn::ScalableTag<std::int16_t>> load_wide(const std::uint8_t* from) {
   const hn::ScalableTag<std::int16_t> d;
   const hn::Rebind<std::uint8_t, decltype(d)> bytes;
   return hn::PromoteTo(d, hn::LoadU(bytes, from));
 }
 
-HWY_INLINE hn::Vec<hn::ScalableTag<std::int16_t>> LoadWide(const std::int16_t* from) {
+HWY_INLINE hn::Vec<hn::ScalableTag<std::int16_t>> load_wide(const std::int16_t* from) {
   return hn::LoadU(hn::ScalableTag<std::int16_t>(), from);
 }
 
 /// The first of the largest values of a row.
 template <typename Value>
-HWY_INLINE int BrightestColumn(const Value* row, int cols) {
+HWY_INLINE int brightest_column(const Value* row, int cols) {
   const hn::ScalableTag<std::int16_t> d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  auto highest = LoadWide(row);
+  auto highest = load_wide(row);
   int c = lanes;
-  for (; c + lanes <= cols; c += lanes) highest = hn::Max(highest, LoadWide(row + c));
-  highest = hn::Max(highest, LoadWide(row + cols - lanes));
+  for (; c + lanes <= cols; c += lanes) highest = hn::Max(highest, load_wide(row + c));
+  highest = hn::Max(highest, load_wide(row + cols - lanes));
   const auto wanted = hn::MaxOfLanes(d, highest);
   for (c = 0;; c += lanes) {
     const int at = std::min(c, cols - lanes);
-    const auto first = hn::FindFirstTrue(d, hn::Eq(LoadWide(row + at), wanted));
+    const auto first = hn::FindFirstTrue(d, hn::Eq(load_wide(row + at), wanted));
     if (first >= 0) return at + static_cast<int>(first);
   }
 }
 
 /// Sizes of second differences as bytes, 255 where the stripe is and behind the end of the row.
 template <typename Value>
-HWY_INLINE void StoreDifferences(const Value* row, int cols, std::uint8_t* differences) {
+HWY_INLINE void store_differences(const Value* row, int cols, std::uint8_t* differences) {
   const hn::ScalableTag<std::int16_t> d;
   const hn::Rebind<std::uint8_t, decltype(d)> bytes;
   const int lanes = static_cast<int>(hn::Lanes(d));
   for (int c = 1; c + 1 < cols; c += lanes) {
     const int at = std::min(c, cols - 1 - lanes);  // the last ones overlap those before
-    const auto middle = LoadWide(row + at);
-    const auto sides = hn::Add(LoadWide(row + at - 1), LoadWide(row + at + 1));
+    const auto middle = load_wide(row + at);
+    const auto sides = hn::Add(load_wide(row + at - 1), load_wide(row + at + 1));
     const auto size = hn::Abs(hn::Sub(hn::Add(middle, middle), sides));
     hn::StoreU(hn::DemoteTo(bytes, size), bytes, differences + at - 1);
   }
   std::memset(differences + cols - 2, 255, HWY_MAX_BYTES);
 }
 
-HWY_INLINE int CountUpTo(const std::uint8_t* values, int count, int most) {
+HWY_INLINE int count_up_to(const std::uint8_t* values, int count, int most) {
   const hn::ScalableTag<std::uint8_t> d;
   const auto limit = hn::Set(d, static_cast<std::uint8_t>(most));
   std::size_t found = 0;
@@ -71,12 +71,12 @@ HWY_INLINE int CountUpTo(const std::uint8_t* values, int count, int most) {
 }
 
 /// The least value that `kept` of all do not exceed, looked for from `guess` on.
-HWY_INLINE int Quantile(const std::uint8_t* values, int count, int kept, int guess) {
+HWY_INLINE int quantile(const std::uint8_t* values, int count, int kept, int guess) {
   int low = 0;
   int high = 255;
   int middle = std::clamp(guess, 0, 254);
   for (int step = 0; low < high; ++step) {
-    if (CountUpTo(values, count, middle) >= kept) {
+    if (count_up_to(values, count, middle) >= kept) {
       high = middle;
     } else {
       low = middle + 1;
@@ -90,7 +90,7 @@ HWY_INLINE int Quantile(const std::uint8_t* values, int count, int kept, int gue
 }
 
 /// Sum of the values below `limit`; how many they are is added to `below`.
-HWY_INLINE int SumBelow(const std::uint8_t* values, int count, int limit, int& below) {
+HWY_INLINE int sum_below(const std::uint8_t* values, int count, int limit, int& below) {
   const hn::ScalableTag<std::uint8_t> d;
   const hn::Repartition<std::uint64_t, decltype(d)> d64;
   auto sum = hn::Zero(d64);
@@ -107,7 +107,7 @@ HWY_INLINE int SumBelow(const std::uint8_t* values, int count, int limit, int& b
 
 /// estimate_noise() for `rows` rows of `cols` columns, 64 or more; row_of(r) is where row r begins.
 template <typename RowOf>
-HWY_NOINLINE float EstimateNoise(int rows, int cols, const RowOf& row_of) {
+HWY_NOINLINE float estimate_noise(int rows, int cols, const RowOf& row_of) {
   constexpr int kStripeReach = 10;
   std::vector<float> per_row;
   std::vector<std::uint8_t> differences(static_cast<std::size_t>(cols) + 2 * HWY_MAX_BYTES);
@@ -117,15 +117,15 @@ HWY_NOINLINE float EstimateNoise(int rows, int cols, const RowOf& row_of) {
   int guess = 4;
   for (int r = step / 2; r < rows; r += step) {
     const auto* row = row_of(r);
-    StoreDifferences(row, cols, sizes);
-    const int brightest = BrightestColumn(row, cols) - 1;
+    store_differences(row, cols, sizes);
+    const int brightest = brightest_column(row, cols) - 1;
     const int first = std::max(0, brightest - kStripeReach);
     const int last = std::min(count, brightest + kStripeReach + 1);
     std::memset(sizes + first, 255, static_cast<std::size_t>(last - first));
     const int kept = (count - (last - first)) * 3 / 4;
-    guess = Quantile(sizes, count, kept, guess);
+    guess = quantile(sizes, count, kept, guess);
     int below = 0;
-    const int sum = SumBelow(sizes, count, guess, below);
+    const int sum = sum_below(sizes, count, guess, below);
     per_row.push_back(row_noise_from(sum + (kept - below) * guess, kept));
   }
   return frame_noise_from(per_row);

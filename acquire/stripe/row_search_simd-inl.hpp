@@ -20,11 +20,11 @@ using Bytes = hn::ScalableTag<std::uint8_t>;
 using VBytes = hn::Vec<Bytes>;
 
 /// Some pixels as bytes, 0 to 255.
-HWY_INLINE VBytes LoadPixels(const std::uint8_t* from) {
+HWY_INLINE VBytes load_pixels(const std::uint8_t* from) {
   return hn::LoadU(Bytes(), from);
 }
 
-HWY_INLINE VBytes LoadPixels(const std::int16_t* from) {
+HWY_INLINE VBytes load_pixels(const std::int16_t* from) {
   const hn::Repartition<std::int16_t, Bytes> d16;
   const hn::Half<Bytes> half;
   return hn::Combine(Bytes(),
@@ -32,7 +32,7 @@ HWY_INLINE VBytes LoadPixels(const std::int16_t* from) {
                      hn::DemoteTo(half, hn::LoadU(d16, from)));
 }
 
-inline int ByteOf(int value) {
+inline int byte_of(int value) {
   return value < 0 ? 0 : value > 255 ? 255 : value;
 }
 
@@ -44,7 +44,7 @@ class SearchRoom {
  public:
   static constexpr std::size_t kOff = 128;  ///< more than any distance and any vector
 
-  void Reserve(int cols) {
+  void reserve(int cols) {
     const std::size_t need = (static_cast<std::size_t>(cols) / 2 + 3 * kOff) / kOff * kOff;
     if (size_ >= need) return;
     size_ = need;
@@ -60,17 +60,17 @@ class SearchRoom {
 };
 
 template <typename Value>
-HWY_INLINE VBytes LevelOf(const FourRows<Value>& rows, std::size_t c) {
-  const auto upper = hn::AverageRound(LoadPixels(rows[0] + c), LoadPixels(rows[1] + c));
-  const auto lower = hn::AverageRound(LoadPixels(rows[2] + c), LoadPixels(rows[3] + c));
+HWY_INLINE VBytes level_of(const FourRows<Value>& rows, std::size_t c) {
+  const auto upper = hn::AverageRound(load_pixels(rows[0] + c), load_pixels(rows[1] + c));
+  const auto lower = hn::AverageRound(load_pixels(rows[2] + c), load_pixels(rows[3] + c));
   return hn::AverageRound(upper, lower);
 }
 
 template <int kHalvings, typename Value>
-HWY_INLINE void StoreColumns(const FourRows<Value>& rows, std::size_t c, std::uint8_t* to) {
+HWY_INLINE void store_columns(const FourRows<Value>& rows, std::size_t c, std::uint8_t* to) {
   const Bytes d;
-  const auto left = LevelOf(rows, c);
-  const auto right = LevelOf(rows, c + hn::Lanes(d));
+  const auto left = level_of(rows, c);
+  const auto right = level_of(rows, c + hn::Lanes(d));
   const auto pairs =
       hn::AverageRound(hn::ConcatEven(d, right, left), hn::ConcatOdd(d, right, left));
   if (kHalvings == 1) {
@@ -84,20 +84,20 @@ HWY_INLINE void StoreColumns(const FourRows<Value>& rows, std::size_t c, std::ui
 }
 
 template <typename Value>
-HWY_INLINE std::uint8_t LevelAt(const FourRows<Value>& rows, std::size_t c) {
-  const int upper = (ByteOf(rows[0][c]) + ByteOf(rows[1][c]) + 1) >> 1;
-  const int lower = (ByteOf(rows[2][c]) + ByteOf(rows[3][c]) + 1) >> 1;
+HWY_INLINE std::uint8_t level_at(const FourRows<Value>& rows, std::size_t c) {
+  const int upper = (byte_of(rows[0][c]) + byte_of(rows[1][c]) + 1) >> 1;
+  const int lower = (byte_of(rows[2][c]) + byte_of(rows[3][c]) + 1) >> 1;
   return static_cast<std::uint8_t>((upper + lower + 1) >> 1);
 }
 
 /// Rows into one, columns into pairs or fours; the row goes on level beyond its ends.
 template <int kHalvings, typename Value>
-HWY_INLINE void AverageColumns(const FourRows<Value>& rows, std::size_t cols, SearchRoom& room) {
+HWY_INLINE void average_columns(const FourRows<Value>& rows, std::size_t cols, SearchRoom& room) {
   const Bytes d;
   const std::size_t step = 2 * hn::Lanes(d);
   std::uint8_t* to = room.columns();
   std::size_t c = 0;
-  for (; c + step <= cols; c += step) StoreColumns<kHalvings>(rows, c, to + (c >> kHalvings));
+  for (; c + step <= cols; c += step) store_columns<kHalvings>(rows, c, to + (c >> kHalvings));
   if (c < cols) {
     Value tail[kRowsAtOnce][2 * HWY_MAX_BYTES];
     FourRows<Value> tails;
@@ -106,19 +106,19 @@ HWY_INLINE void AverageColumns(const FourRows<Value>& rows, std::size_t cols, Se
       std::fill(tail[i] + (cols - c), tail[i] + step, rows[i][cols - 1]);
       tails[i] = tail[i];
     }
-    StoreColumns<kHalvings>(tails, 0, to + (c >> kHalvings));
+    store_columns<kHalvings>(tails, 0, to + (c >> kHalvings));
   }
   constexpr std::size_t kEdge = 32;
-  std::memset(to - kEdge, LevelAt(rows, 0), kEdge);
+  std::memset(to - kEdge, level_at(rows, 0), kEdge);
   const std::size_t own = (cols + (std::size_t{1} << kHalvings) - 1) >> kHalvings;
-  std::memset(to + own, LevelAt(rows, cols - 1), kEdge);
+  std::memset(to + own, level_at(rows, cols - 1), kEdge);
 }
 
 /// Pairs or fours into boxes: [first, last) and what they are held against.
-HWY_INLINE const std::uint8_t* AverageBoxes(const LineSearch& search,
-                                            int first,
-                                            int last,
-                                            SearchRoom& room) {
+HWY_INLINE const std::uint8_t* average_boxes(const LineSearch& search,
+                                             int first,
+                                             int last,
+                                             SearchRoom& room) {
   const Bytes d;
   std::uint8_t* from = room.columns();
   std::uint8_t* to = room.boxes();
@@ -141,11 +141,11 @@ struct Heights {
 };
 
 /// What each box exceeds those beside it by, into room.over().
-HWY_INLINE Heights HoldAgainstSides(const std::uint8_t* boxes,
-                                    const LineSearch& search,
-                                    BoxRange range,
-                                    int clip,
-                                    SearchRoom& room) {
+HWY_INLINE Heights hold_against_sides(const std::uint8_t* boxes,
+                                      const LineSearch& search,
+                                      BoxRange range,
+                                      int clip,
+                                      SearchRoom& room) {
   const Bytes d;
   const hn::Repartition<std::uint64_t, Bytes> d64;
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -172,7 +172,7 @@ HWY_INLINE Heights HoldAgainstSides(const std::uint8_t* boxes,
           static_cast<int>(hn::GetLane(hn::SumOfLanes(d64, sum)))};
 }
 
-HWY_INLINE int FirstEqual(const std::uint8_t* values, int value) {
+HWY_INLINE int first_equal(const std::uint8_t* values, int value) {
   const Bytes d;
   const auto wanted = hn::Set(d, static_cast<std::uint8_t>(value));
   for (int i = 0;; i += static_cast<int>(hn::Lanes(d))) {
@@ -182,7 +182,7 @@ HWY_INLINE int FirstEqual(const std::uint8_t* values, int value) {
   }
 }
 
-HWY_INLINE int SumClipped(const std::uint8_t* values, int count, int clip) {
+HWY_INLINE int sum_clipped(const std::uint8_t* values, int count, int clip) {
   const Bytes d;
   const hn::Repartition<std::uint64_t, Bytes> d64;
   const auto most = hn::Set(d, static_cast<std::uint8_t>(clip));
@@ -200,13 +200,13 @@ HWY_INLINE int SumClipped(const std::uint8_t* values, int count, int clip) {
   return static_cast<int>(hn::GetLane(hn::SumOfLanes(d64, sum)));
 }
 
-HWY_NOINLINE float NoiseBeside(
+HWY_NOINLINE float noise_beside(
     const std::uint8_t* over, int count, int first, int last, const RowNoiseScale& scale) {
   const int kept = count - (last - first);
   int sum = 0;
   for (int step = 0; step < RowNoiseScale::kSteps; ++step) {
-    sum = SumClipped(over, count, scale.clip(step)) -
-          SumClipped(over + first, last - first, scale.clip(step));
+    sum = sum_clipped(over, count, scale.clip(step)) -
+          sum_clipped(over + first, last - first, scale.clip(step));
     if (scale.fits(step, sum, kept)) return scale.noise(step, sum, kept);
   }
   return scale.noise(RowNoiseScale::kSteps - 1, sum, kept);
@@ -222,12 +222,12 @@ class RowSearch {
       : search_(search), range_(range), cols_(cols) {}
 
   template <typename Value>
-  HWY_INLINE void Search(const FourRows<Value>* groups,
+  HWY_INLINE void search(const FourRows<Value>* groups,
                          int count,
                          const RowNoiseScale& scale,
                          LinePlace* places) {
     for (int first = 0; first < count; first += kAtOnce) {
-      SearchSome(groups + first, std::min(kAtOnce, count - first), scale, places + first);
+      search_some(groups + first, std::min(kAtOnce, count - first), scale, places + first);
     }
   }
 
@@ -235,39 +235,39 @@ class RowSearch {
   static constexpr int kAtOnce = kBatchRows / kRowsAtOnce;
 
   template <typename Value>
-  HWY_NOINLINE void SearchSome(const FourRows<Value>* groups,
-                               int count,
-                               const RowNoiseScale& scale,
-                               LinePlace* places) {
+  HWY_NOINLINE void search_some(const FourRows<Value>* groups,
+                                int count,
+                                const RowNoiseScale& scale,
+                                LinePlace* places) {
     std::array<const std::uint8_t*, kAtOnce> boxes;
     std::array<Heights, kAtOnce> heights;
     for (int g = 0; g < count; ++g) {
-      rooms_[at(g)].Reserve(cols_);
+      rooms_[at(g)].reserve(cols_);
       if (search_.halvings == 1) {
-        AverageColumns<1>(groups[g], static_cast<std::size_t>(cols_), rooms_[at(g)]);
+        average_columns<1>(groups[g], static_cast<std::size_t>(cols_), rooms_[at(g)]);
       } else {
-        AverageColumns<2>(groups[g], static_cast<std::size_t>(cols_), rooms_[at(g)]);
+        average_columns<2>(groups[g], static_cast<std::size_t>(cols_), rooms_[at(g)]);
       }
     }
     for (int g = 0; g < count; ++g) {
-      boxes[at(g)] = AverageBoxes(search_, range_.first, range_.last, rooms_[at(g)]);
+      boxes[at(g)] = average_boxes(search_, range_.first, range_.last, rooms_[at(g)]);
     }
     for (int g = 0; g < count; ++g) {
       heights[at(g)] =
-          HoldAgainstSides(boxes[at(g)], search_, range_, scale.clip(0), rooms_[at(g)]);
+          hold_against_sides(boxes[at(g)], search_, range_, scale.clip(0), rooms_[at(g)]);
     }
     for (int g = 0; g < count; ++g) {
-      places[g] = PlaceOf(heights[at(g)], rooms_[at(g)].over(), scale);
+      places[g] = place_of(heights[at(g)], rooms_[at(g)].over(), scale);
     }
   }
 
   static std::size_t at(int g) { return static_cast<std::size_t>(g); }
 
-  HWY_INLINE LinePlace PlaceOf(const Heights& heights,
-                               const std::uint8_t* over,
-                               const RowNoiseScale& scale) const {
+  HWY_INLINE LinePlace place_of(const Heights& heights,
+                                const std::uint8_t* over,
+                                const RowNoiseScale& scale) const {
     if (heights.highest == 0) return {};
-    const int top = FirstEqual(over, heights.highest);
+    const int top = first_equal(over, heights.highest);
     const int count = range_.last - range_.first;
     const int reach = search_.own_reach();
     const int first = std::max(0, top - reach);
@@ -276,7 +276,7 @@ class RowSearch {
     LinePlace place = {search_.middle(range_.first + top), heights.highest, 0};
     // With the line's own in it the sum is no less.
     if (kept >= 32 && !scale.fits(0, heights.clipped_sum, kept)) {
-      place.row_noise = NoiseBeside(over, count, first, last, scale);
+      place.row_noise = noise_beside(over, count, first, last, scale);
     }
     return place;
   }

@@ -41,22 +41,22 @@ struct WindowLayout {
 
 using WindowPixels = std::array<std::int16_t, kBatchRows * kMostWindow>;
 
-HWY_INLINE hn::Vec<EightShorts> LoadEight(const std::uint8_t* from) {
+HWY_INLINE hn::Vec<EightShorts> load_eight(const std::uint8_t* from) {
   const hn::Rebind<std::uint8_t, EightShorts> bytes;
   return hn::PromoteTo(EightShorts(), hn::LoadU(bytes, from));
 }
 
-HWY_INLINE hn::Vec<EightShorts> LoadEight(const std::int16_t* from) {
+HWY_INLINE hn::Vec<EightShorts> load_eight(const std::int16_t* from) {
   return hn::LoadU(EightShorts(), from);
 }
 
 /// Copies the pixels from column `from` on; beyond what is known the row goes on level.
 template <typename Value, typename Lane>
-HWY_INLINE void CopyWindow(const RowPart<Value>& row,
-                           int from,
-                           int q,
-                           const WindowLayout<Lane>& layout,
-                           std::int16_t* pixels) {
+HWY_INLINE void copy_window(const RowPart<Value>& row,
+                            int from,
+                            int q,
+                            const WindowLayout<Lane>& layout,
+                            std::int16_t* pixels) {
   const int width = 8 * layout.eights;
   Value level[kMostWindow];
   const Value* source = row.values + (from - row.begin);
@@ -69,12 +69,12 @@ HWY_INLINE void CopyWindow(const RowPart<Value>& row,
   std::int16_t* to = pixels + layout.at(q, 0);
   const int step = layout.lanes * 8;
   for (int i = 0; i < layout.eights; ++i) {
-    hn::Store(LoadEight(source + 8 * i), EightShorts(), to + i * step);
+    hn::Store(load_eight(source + 8 * i), EightShorts(), to + i * step);
   }
 }
 
 /// Eight vectors of 8 pixels each become eight vectors of one column each.
-HWY_INLINE void TurnEights(const std::int16_t* from, VShorts* columns) {
+HWY_INLINE void turn_eights(const std::int16_t* from, VShorts* columns) {
   const Shorts d;
   const std::size_t lanes = hn::Lanes(d);
   VShorts a[8];
@@ -95,7 +95,7 @@ HWY_INLINE void TurnEights(const std::int16_t* from, VShorts* columns) {
 }
 
 /// Four vectors of 8 pixels each become four vectors of two neighbouring columns each.
-HWY_INLINE void TurnPairs(const std::int16_t* from, VWords* pairs) {
+HWY_INLINE void turn_pairs(const std::int16_t* from, VWords* pairs) {
   const Words d;
   const Shorts d16;
   const std::size_t lanes = hn::Lanes(d16);
@@ -124,14 +124,14 @@ struct SettleBatch {
 
 /// settle() for all rows of a batch.
 template <typename Value>
-HWY_NOINLINE void SettleRows(const StripePlan& plan, SettleBatch<Value>& batch) {
+HWY_NOINLINE void settle_rows(const StripePlan& plan, SettleBatch<Value>& batch) {
   const Shorts d;
   const int reach = plan.search.reach;
   const int box = plan.search.box;
   alignas(64) WindowPixels pixels;
   const WindowLayout<std::int16_t> layout{plan.settle_eights};
   for (int q = 0; q < batch.count; ++q) {
-    CopyWindow(batch.rows[q], batch.column[q] - plan.settle_reach, q, layout, pixels.data());
+    copy_window(batch.rows[q], batch.column[q] - plan.settle_reach, q, layout, pixels.data());
   }
   for (int q = 0; q < batch.count; q += layout.lanes) {
     // sums[k]: of all columns before k.
@@ -139,7 +139,7 @@ HWY_NOINLINE void SettleRows(const StripePlan& plan, SettleBatch<Value>& batch) 
     sums[0] = hn::Zero(d);
     for (int e = 0; e < layout.eights; ++e) {
       VShorts columns[8];
-      TurnEights(pixels.data() + layout.at(q, e), columns);
+      turn_eights(pixels.data() + layout.at(q, e), columns);
       for (int i = 0; i < 8; ++i) sums[8 * e + i + 1] = hn::Add(sums[8 * e + i], columns[i]);
     }
     auto left = hn::Zero(d);

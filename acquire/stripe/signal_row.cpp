@@ -15,12 +15,12 @@ HWY_BEFORE_NAMESPACE();
 namespace facula {
 namespace HWY_NAMESPACE {
 
-void ReadSignalRowHere(const ImageView8& frame,
-                       const ImageView8& background,
-                       int r,
-                       Channel channel,
-                       std::int16_t* to) {
-  ReadSignalRow(frame, background, r, channel, to);
+void read_signal_row_here(const ImageView8& frame,
+                          const ImageView8& background,
+                          int r,
+                          Channel channel,
+                          std::int16_t* to) {
+  read_signal_row_of(frame, background, r, channel, to);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -30,11 +30,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace facula {
 
-HWY_EXPORT(ReadSignalRowHere);
+HWY_EXPORT(read_signal_row_here);
 
 void read_signal_row(
     ImageView8 frame, ImageView8 background, int r, Channel channel, std::int16_t* values) {
-  HWY_DYNAMIC_DISPATCH(ReadSignalRowHere)(frame, background, r, channel, values);
+  HWY_DYNAMIC_DISPATCH(read_signal_row_here)(frame, background, r, channel, values);
 }
 
 }  // namespace facula

@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// channel_value() of whole vectors.
 template <Channel kChannel, class V>
-HWY_INLINE V ChannelOf(V b, V g, V r) {
+HWY_INLINE V channel_of(V b, V g, V r) {
   const hn::DFromV<V> d;
   const hn::RebindToUnsigned<decltype(d)> du;
   switch (kChannel) {
@@ -51,10 +51,10 @@ HWY_INLINE V ChannelOf(V b, V g, V r) {
 
 /// One row of colour pixels, or what two of them differ by where `dark` is not null.
 template <Channel kChannel>
-HWY_INLINE void ReadColourRow(const std::uint8_t* lit,
-                              const std::uint8_t* dark,
-                              int cols,
-                              std::int16_t* values) {
+HWY_INLINE void read_colour_row(const std::uint8_t* lit,
+                                const std::uint8_t* dark,
+                                int cols,
+                                std::int16_t* values) {
   int c = 0;
 #if HWY_TARGET != HWY_SCALAR
   const hn::ScalableTag<std::int16_t> d;
@@ -65,7 +65,7 @@ HWY_INLINE void ReadColourRow(const std::uint8_t* lit,
     hn::Vec<decltype(bytes)> g;
     hn::Vec<decltype(bytes)> r;
     hn::LoadInterleaved3(bytes, from, b, g, r);
-    return ChannelOf<kChannel>(hn::PromoteTo(d, b), hn::PromoteTo(d, g), hn::PromoteTo(d, r));
+    return channel_of<kChannel>(hn::PromoteTo(d, b), hn::PromoteTo(d, g), hn::PromoteTo(d, r));
   };
   for (; c + lanes <= cols; c += lanes) {
     auto value = read(lit + 3 * c);
@@ -80,10 +80,10 @@ HWY_INLINE void ReadColourRow(const std::uint8_t* lit,
   }
 }
 
-HWY_INLINE void ReadGreyRow(const std::uint8_t* lit,
-                            const std::uint8_t* dark,
-                            int cols,
-                            std::int16_t* values) {
+HWY_INLINE void read_grey_row(const std::uint8_t* lit,
+                              const std::uint8_t* dark,
+                              int cols,
+                              std::int16_t* values) {
   int c = 0;
 #if HWY_TARGET != HWY_SCALAR
   const hn::ScalableTag<std::int16_t> d;
@@ -100,32 +100,32 @@ HWY_INLINE void ReadGreyRow(const std::uint8_t* lit,
   }
 }
 
-HWY_INLINE void ReadSignalRow(const ImageView8& frame,
-                              const ImageView8& background,
-                              int r,
-                              Channel channel,
-                              std::int16_t* to) {
+HWY_INLINE void read_signal_row_of(const ImageView8& frame,
+                                   const ImageView8& background,
+                                   int r,
+                                   Channel channel,
+                                   std::int16_t* to) {
   const std::uint8_t* lit = frame.row(r);
   const std::uint8_t* dark = background.empty() ? nullptr : background.row(r);
-  if (frame.channels != 3) return ReadGreyRow(lit, dark, frame.cols, to);
+  if (frame.channels != 3) return read_grey_row(lit, dark, frame.cols, to);
   // Written out: a function that a generic lambda calls has lost its instruction set.
   switch (channel) {
     case Channel::kGrey:
-      return ReadColourRow<Channel::kGrey>(lit, dark, frame.cols, to);
+      return read_colour_row<Channel::kGrey>(lit, dark, frame.cols, to);
     case Channel::kRed:
-      return ReadColourRow<Channel::kRed>(lit, dark, frame.cols, to);
+      return read_colour_row<Channel::kRed>(lit, dark, frame.cols, to);
     case Channel::kGreen:
-      return ReadColourRow<Channel::kGreen>(lit, dark, frame.cols, to);
+      return read_colour_row<Channel::kGreen>(lit, dark, frame.cols, to);
     case Channel::kBlue:
-      return ReadColourRow<Channel::kBlue>(lit, dark, frame.cols, to);
+      return read_colour_row<Channel::kBlue>(lit, dark, frame.cols, to);
     case Channel::kRedExcess:
-      return ReadColourRow<Channel::kRedExcess>(lit, dark, frame.cols, to);
+      return read_colour_row<Channel::kRedExcess>(lit, dark, frame.cols, to);
     case Channel::kGreenExcess:
-      return ReadColourRow<Channel::kGreenExcess>(lit, dark, frame.cols, to);
+      return read_colour_row<Channel::kGreenExcess>(lit, dark, frame.cols, to);
     case Channel::kBlueExcess:
-      return ReadColourRow<Channel::kBlueExcess>(lit, dark, frame.cols, to);
+      return read_colour_row<Channel::kBlueExcess>(lit, dark, frame.cols, to);
     case Channel::kMaximum:
-      return ReadColourRow<Channel::kMaximum>(lit, dark, frame.cols, to);
+      return read_colour_row<Channel::kMaximum>(lit, dark, frame.cols, to);
   }
 }
 

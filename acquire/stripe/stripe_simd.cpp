@@ -32,16 +32,16 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 // One lane a vector: nothing is gained over the plain functions.
-bool MeasureFrame(const StripeView&, const StripeOptions&, StripeLocation&, MeasuredRows*) {
+bool measure_frame(const StripeView&, const StripeOptions&, StripeLocation&, MeasuredRows*) {
   return false;
 }
-bool LocateSignal(const StripeSignal&, const StripeOptions&, StripeLocation&) {
+bool locate_signal(const StripeSignal&, const StripeOptions&, StripeLocation&) {
   return false;
 }
-bool MeasureSignal(const StripeSignal&,
-                   const StripeLocation&,
-                   const StripeOptions&,
-                   MeasuredRows&) {
+bool measure_signal(const StripeSignal&,
+                    const StripeLocation&,
+                    const StripeOptions&,
+                    MeasuredRows&) {
   return false;
 }
 #endif
@@ -54,9 +54,9 @@ HWY_AFTER_NAMESPACE();
 namespace facula {
 namespace {
 
-HWY_EXPORT(MeasureFrame);
-HWY_EXPORT(LocateSignal);
-HWY_EXPORT(MeasureSignal);
+HWY_EXPORT(measure_frame);
+HWY_EXPORT(locate_signal);
+HWY_EXPORT(measure_signal);
 
 constexpr int kLeastCols = 64;
 
@@ -69,7 +69,7 @@ std::optional<MeasuredRows> measure_frame_simd(const StripeView& view,
   check_pair(view.frame, view.background);
   StripeLocation located = StripeLocation::none(static_cast<std::size_t>(view.frame.rows));
   MeasuredRows rows(located.size(), 0);
-  if (!HWY_DYNAMIC_DISPATCH(MeasureFrame)(view, options, located, &rows)) return {};
+  if (!HWY_DYNAMIC_DISPATCH(measure_frame)(view, options, located, &rows)) return {};
   if (location != nullptr) *location = std::move(located);
   return rows;
 }
@@ -78,7 +78,7 @@ std::optional<StripeLocation> locate_stripe_simd(const StripeSignal& signal,
                                                  const StripeOptions& options) {
   if (options.sigma > kMostSigma || signal.cols() < kLeastCols || !signal.is_whole()) return {};
   StripeLocation location = StripeLocation::none(static_cast<std::size_t>(signal.rows()));
-  if (!HWY_DYNAMIC_DISPATCH(LocateSignal)(signal, options, location)) return {};
+  if (!HWY_DYNAMIC_DISPATCH(locate_signal)(signal, options, location)) return {};
   return location;
 }
 
@@ -87,7 +87,7 @@ std::optional<MeasuredRows> measure_rows_simd(const StripeSignal& signal,
                                               const StripeOptions& options) {
   if (options.sigma > kMostSigma) return {};
   MeasuredRows rows(location.size(), location.noise);
-  if (!HWY_DYNAMIC_DISPATCH(MeasureSignal)(signal, location, options, rows)) return {};
+  if (!HWY_DYNAMIC_DISPATCH(measure_signal)(signal, location, options, rows)) return {};
   return rows;
 }
 

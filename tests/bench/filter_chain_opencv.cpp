@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace facula {
@@ -25,6 +26,10 @@ void smooth_runs(std::vector<float>& position) {
 }
 
 }  // namespace
+
+void filter_chain_on_one_thread() {
+  cv::setNumThreads(1);
+}
 
 std::vector<float> filter_chain(ImageView8 grey) {
   const cv::Mat frame(grey.rows,

@@ -7,6 +7,9 @@
 
 namespace facula {
 
+/// Keeps OpenCV's functions on the thread that calls them.
+void filter_chain_on_one_thread();
+
 /// The line as the program Horus finds it, in OpenCV's own functions on one thread: threshold to
 /// zero, 5 x 5 box blur, threshold again, the brightest column of each row, only +-8 columns about
 /// it kept, centre of gravity per row; then a Gaussian of 2 rows along each unbroken run. Position

@@ -18,8 +18,6 @@
 #include <string>
 #include <vector>
 
-#include <opencv2/core/utility.hpp>
-
 namespace facula {
 namespace {
 
@@ -166,7 +164,7 @@ void print(const Size& size, const std::vector<Contender>& all, bool json) {
 }
 
 int run(int rounds, bool json) {
-  cv::setNumThreads(1);
+  filter_chain_on_one_thread();
   for (const Size& size : kSizes) {
     const Frames frames = frames_of(size);
     std::vector<Contender> all = contenders(frames);

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Fails when a file below ROOT is too long, has too long a function, or lacks its SPDX line or its
-# `#pragma once`.
+# `#pragma once`. Highway's *-inl.hpp are included once per instruction set and toggle a macro instead.
 # Usage: style.sh ROOT
 set -euo pipefail
 cd "$1"
@@ -30,7 +30,9 @@ check_file() {
   # The second line counts too: a script starts with #!, a page with its document type.
   [[ $(head -n 2 "$file") == *SPDX-License-Identifier:* ]] ||
     complain "$file: no SPDX line at the top"
-  [[ $file != *.hpp ]] || grep -q '^#pragma once$' "$file" || complain "$file: no #pragma once"
+  local guard='^#pragma once$'
+  [[ $file != *-inl.hpp ]] || guard='defined\(HWY_TARGET_TOGGLE\)'
+  [[ $file != *.hpp ]] || grep -q -E "$guard" "$file" || complain "$file: no line $guard"
 }
 
 check_functions() {
