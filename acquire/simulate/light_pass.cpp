@@ -126,8 +126,10 @@ void LightPass::add_near_sheet(int r, int c, Vector3d& ambient, LaserLayer& lase
   if (plane || bend) ambient = ambient_of(centre);
   const std::array<double, kLaserSpots> light_of = laser_over(spots);
   for (int i = 0; i < kLaserSpots; ++i) {
-    const double across = (i % kLaserGrid + 0.5) / kLaserGrid - 0.5;
-    const double down = (i / kLaserGrid + 0.5) / kLaserGrid - 0.5;
+    const int column = i % kLaserGrid;
+    const int row = i / kLaserGrid;
+    const double across = (column + 0.5) / kLaserGrid - 0.5;
+    const double down = (row + 0.5) / kLaserGrid - 0.5;
     laser.add(r, c, across, down, light_of[static_cast<std::size_t>(i)] / kLaserSpots);
   }
 }
