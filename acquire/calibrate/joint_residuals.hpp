@@ -103,7 +103,7 @@ T distance_off_sheet(const LaserPlane& base, const T* d, const Vector3T<T>& x, b
   using std::tan;
   const Vector3T<T> normal = tilted<T>(base.normal, d[0], d[1]);
   const T distance = base.distance + d[2];
-  const T off = normal.dot(x) - distance;
+  T off = normal.dot(x) - distance;
   if (!bends) return off;
   const Vector2T<T> across = normal.template head<2>();
   Vector3T<T> origin = distance * normal;

@@ -208,6 +208,7 @@ void start_lasers(const CalibrationSet& set,
                   const std::vector<RigidTransform>& poses,
                   JointStart& start) {
   std::vector<BoardPose> board_poses;
+  board_poses.reserve(poses.size());
   for (const RigidTransform& pose : poses) {
     board_poses.push_back({pose, Eigen::Matrix3d::Zero()});
   }
