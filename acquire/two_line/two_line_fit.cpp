@@ -4,6 +4,7 @@
 #include <facula/acquire/two_line/two_line_fit.hpp>
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace facula {
@@ -39,6 +40,29 @@ void check_points(const std::vector<TwoLinePoint>& points) {
   }
 }
 
+/// Lines that part, or stay as they are, while the surface goes away are not those of such a head.
+void check_trend(const std::vector<TwoLinePoint>& points) {
+  const auto count = static_cast<double>(points.size());
+  double near = 0;
+  double separation = 0;
+  for (const TwoLinePoint& p : points) {
+    near += 1 / (p.distance * count);
+    separation += p.separation / count;
+  }
+  double spread = 0;
+  double together = 0;
+  for (const TwoLinePoint& p : points) {
+    const double off = 1 / p.distance - near;
+    spread += off * off;
+    together += off * (p.separation - separation);
+  }
+  if (!(spread > 1e-12 * count * near * near)) return;  // one distance has no trend
+  require(together > 1e-9 * separation * std::sqrt(spread),
+          "the separations grow with the distance or stay the same: expected the lower line minus "
+          "the upper one, smaller the farther away; check that separations and distances belong "
+          "together");
+}
+
 TwoLineFit fit_parallel(const std::vector<TwoLinePoint>& points) {
   TwoLineFit fit;
   fit.head.spacing = parallel_spacing(points, points.size());
@@ -60,15 +84,19 @@ TwoLineFit fit_parallel(const std::vector<TwoLinePoint>& points) {
 }
 
 /// Sheets that drift apart are the range hyperbola with the separation as its position:
-/// distance = -spacing / (divergence - separation).
-TwoLineFit fit_drifting(const std::vector<TwoLinePoint>& points) {
+/// distance = -spacing / (divergence - separation). None where the points cannot tell the drift,
+/// as with two distances only.
+std::optional<TwoLineFit> fit_drifting(const std::vector<TwoLinePoint>& points) {
   std::vector<RangePoint> range_points;
   range_points.reserve(points.size());
   for (const TwoLinePoint& p : points) range_points.push_back({p.separation, p.distance});
-  const RangeFit range = fit_range(range_points, {.centre = 0});
-  require(range.model.slope < 0,
-          "the separations grow with the distance: expected the lower line minus the upper one; "
-          "check that separations and distances belong together");
+  RangeFit range;
+  try {
+    range = fit_range(range_points, {.centre = 0});
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+  if (!(range.model.slope < 0)) return std::nullopt;
   TwoLineFit fit;
   fit.head.spacing = -range.model.slope;
   fit.head.divergence = range.model.vanishing;
@@ -84,11 +112,12 @@ TwoLineFit fit_drifting(const std::vector<TwoLinePoint>& points) {
 
 TwoLineFit fit_two_line(const std::vector<TwoLinePoint>& points, const TwoLineFitOptions& options) {
   check_points(points);
+  check_trend(points);
   TwoLineFit fit = fit_parallel(points);
   const double parallel = fit.held_out_rms;
   if (options.divergence && points.size() >= 3) {
-    const TwoLineFit drifting = fit_drifting(points);
-    if (drifting.held_out_rms < parallel) fit = drifting;
+    const std::optional<TwoLineFit> drifting = fit_drifting(points);
+    if (drifting && drifting->held_out_rms < parallel) fit = *drifting;
   }
   fit.parallel_held_out_rms = parallel;
   fit.head.medium_index = options.medium_index;

@@ -88,6 +88,7 @@ std::vector<TwoLineReading> read_two_lines(ImageView8 frame,
           frame.cols,
           " x ",
           frame.rows);
+  require(frame.rows >= 2, "expected a frame of 2 rows or more, one per line, got ", frame.rows);
   std::vector<TwoLineReading> readings = empty_readings(rig, options);
   if (options.method == TwoLineMethod::kHough) {
     find_by_hough(frame, background, rig, options, readings);

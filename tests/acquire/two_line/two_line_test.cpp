@@ -149,6 +149,12 @@ TEST(FitTwoLine, SaysThatSheetsAreNotParallel) {
   EXPECT_NE(fit.warnings.back().find("not parallel"), std::string::npos);
 }
 
+TEST(FitTwoLine, TakesTwoDistancesMeasuredTwice) {
+  const TwoLineFit fit = fit_two_line({{0.1, 2}, {0.1, 2}, {0.05, 4}, {0.05, 4}});
+  EXPECT_NEAR(fit.head.spacing, 0.2, 1e-12);
+  EXPECT_EQ(fit.head.divergence, 0);
+}
+
 TEST(FitTwoLine, RefusesWhatCannotBe) {
   const auto said = [](const std::vector<TwoLinePoint>& points) {
     return error_of([&] { fit_two_line(points); });
@@ -157,6 +163,8 @@ TEST(FitTwoLine, RefusesWhatCannotBe) {
   EXPECT_NE(said({{0.1, 2}, {-0.1, 3}}).find("above 0"), std::string::npos);
   EXPECT_NE(said({{0.1, 1}, {0.2, 2}, {0.3, 3}, {0.4, 4}}).find("grow with the distance"),
             std::string::npos);
+  EXPECT_NE(said({{0.1, 1}, {0.2, 2}}).find("grow with the distance"), std::string::npos);
+  EXPECT_NE(said({{0.1, 1}, {0.1, 2}, {0.1, 3}}).find("stay the same"), std::string::npos);
   EXPECT_NE(said({{0.1, 1}, {std::nan(""), 2}}).find("finite"), std::string::npos);
 }
 
