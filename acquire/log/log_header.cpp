@@ -21,23 +21,26 @@ std::string take_text(ByteReader& in, std::size_t size) {
 bool sizes_are_sane(const StripeLogHeader& h, std::uint32_t background) {
   return h.rows > 0 && h.rows <= 100000 && h.cols > 0 && h.cols < 65535 &&
          (h.channels == 1 || h.channels == 3) && h.width > 0 && h.width <= 254 &&
-         h.width <= h.cols && h.exposures >= 1 && h.exposures <= 8 && background <= 2;
+         h.width <= h.cols && h.exposures >= 1 && h.exposures <= 16 && background <= 2;
 }
 
 }  // namespace
 
 Bytes encode_header(const StripeLogHeader& header) {
-  require(sizes_are_sane(header, static_cast<std::uint32_t>(header.background)),
-          "a stripe log holds rows shorter than 65535 px of frames with at most 100000 rows and 1 "
-          "or 3 channels, got ",
-          header.rows,
-          " rows of ",
-          header.cols,
-          " px, ",
-          header.channels,
-          " channels, windows of ",
-          header.width,
-          " px");
+  require(
+      sizes_are_sane(header, static_cast<std::uint32_t>(header.background)),
+      "a stripe log holds rows shorter than 65535 px of frames with at most 100000 rows, 1 or 3 "
+      "channels and 16 exposures, got ",
+      header.rows,
+      " rows of ",
+      header.cols,
+      " px, ",
+      header.channels,
+      " channels, ",
+      header.exposures,
+      " exposures, windows of ",
+      header.width,
+      " px");
   Bytes out(kMagic.begin(), kMagic.end());
   put(out, kVersion);
   put(out, std::uint32_t{0});  // length and checksum, filled in below

@@ -22,7 +22,7 @@ struct StripeLogHeader {
   int cols = 0;       ///< pixels along such a row [px]
   int channels = 1;   ///< 1 or 3 [1]
   int width = 0;      ///< of the windows [px]
-  int exposures = 1;  ///< of every frame, merged when measured, 1 to 8 [1]
+  int exposures = 1;  ///< of every frame, merged when measured, 1 to 16 [1]
   bool bed = false;   ///< a bare bed was recorded with every frame (zero line)
   LoggedBackground background = LoggedBackground::kNone;
   std::size_t frames = 0;  ///< of the whole recording, 0 where nobody knows yet [1]

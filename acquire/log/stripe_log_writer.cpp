@@ -27,6 +27,27 @@ bool write_all(int file, ByteView bytes) {
   return true;
 }
 
+/// Keeps other programs from beginning a log in the same folder: two that both find no file of
+/// that name would else put theirs there one after the other, and the first would write on into a
+/// file that no longer has a name. Where a file system has no such locks, nothing is kept.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    folder_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    while (folder_ >= 0 && flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  ~FolderLock() {
+    if (folder_ >= 0) close(folder_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int folder_ = -1;
+};
+
 }  // namespace
 
 StripeLogWriter::StripeLogWriter(std::filesystem::path path,
@@ -66,6 +87,7 @@ StripeLogWriter::~StripeLogWriter() {
 StripeLogWriter StripeLogWriter::create(const std::filesystem::path& path,
                                         const StripeLogHeader& header,
                                         ImageView8 common_background) {
+  const FolderLock alone(path);
   std::error_code unknown;
   require(!std::filesystem::exists(path, unknown),
           "there is already a file '",

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/capture/frame_source.hpp>
+#include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/parallel.hpp>
+#include <facula/acquire/log/log_settings.hpp>
+#include <facula/acquire/log/stripe_log_writer.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
 #include <facula/tests/acquire/log/logged_wall.hpp>
 #include <facula/tests/support/matchers.hpp>
 
+#include <atomic>
 #include <fstream>
+#include <thread>
 
 namespace facula {
 namespace {
@@ -196,6 +201,46 @@ TEST_F(StripeLog, IsNotOverwrittenNorContinuedByAnotherRecording) {
   other.positions.pop_back();
   other.frames.pop_back();
   EXPECT_NE(refused(other, true).find("3 frames, and this capture has 2"), std::string::npos);
+}
+
+/// A log that is replaced while it is written goes on without a name, and its frames are lost.
+TEST_F(StripeLog, IsBegunByOneOfManyAtTheSameTime) {
+  Capture capture;
+  capture.rig = small_head();
+  capture.positions = {0.0};
+  const StripeLogHeader header = header_of(capture, 1);
+  for (int round = 0; round < 10; ++round) {
+    const auto path = folder_ / ("log" + std::to_string(round));
+    std::atomic<int> begun{0};
+    std::atomic<int> refused{0};
+    std::vector<std::thread> programs;
+    for (int i = 0; i < 6; ++i) {
+      programs.emplace_back([&] {
+        try {
+          const auto writer = StripeLogWriter::create(path, header, {});
+          ++begun;
+        } catch (const Error&) {
+          ++refused;
+        }
+      });
+    }
+    for (std::thread& program : programs) program.join();
+    EXPECT_EQ(begun, 1);
+    EXPECT_EQ(refused, 5);
+  }
+}
+
+/// As many as capture.toml may name.
+TEST_F(StripeLog, HoldsSixteenExposures) {
+  Capture capture;
+  capture.rig = small_head();
+  capture.positions = {0.0};
+  capture.exposures.assign(16, 1.0);
+  const StripeLogHeader header = header_of(capture, 1);
+  EXPECT_EQ(decode_header(encode_header(header), "log").exposures, 16);
+  capture.exposures.push_back(1.0);
+  EXPECT_NE(error_of([&] { encode_header(header_of(capture, 1)); }).find("17 exposures"),
+            std::string::npos);
 }
 
 /// Grey frames of 640 x 480 with the stripe in every row.
