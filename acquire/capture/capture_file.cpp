@@ -158,6 +158,13 @@ std::size_t position_count(const Capture& capture) {
           " frames per position, for every exposure in exposures_ms, got ",
           frames,
           " frames, which is no multiple of that");
+  require(frames >= each,
+          capture.file.string(),
+          ": expected ",
+          each,
+          " frames per position as 'alternating' says, got ",
+          frames,
+          " in all; check the pattern in [frames]");
   return frames / each;
 }
 

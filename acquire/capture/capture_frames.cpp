@@ -3,6 +3,8 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/stripe/moving_pixels.hpp>
 
+#include <string>
+
 namespace facula {
 
 CaptureFrames::CaptureFrames(const Capture& capture)
@@ -18,7 +20,9 @@ CaptureFrames::CaptureFrames(const Capture& capture)
     return;
   }
   require(background_->size() == size() * exposures_,
-          "expected one background for all frames or one each, got ",
+          "expected one background for all frames",
+          exposures_ > 1 ? " of an exposure (" + std::to_string(exposures_) + ")" : "",
+          " or one each, got ",
           background_->size(),
           " for ",
           size() * exposures_,

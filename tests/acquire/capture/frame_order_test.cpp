@@ -151,6 +151,14 @@ TEST_F(FrameOrder, SaysWhatIsWrongWithTheOrder) {
   EXPECT_NE(complaint("exposures_ms = [1, -2]").find("above 0"), std::string::npos);
   EXPECT_NE(complaint("exposures_ms = []").find("1 to 16"), std::string::npos);
   EXPECT_NE(complaint("exposures_ms = [1, 2, 3]").find("no multiple"), std::string::npos);
+  std::filesystem::copy_file(folder_ / "f100.png", folder_ / "dark.png");
+  EXPECT_NE(complaint("exposures_ms = [1, 2]\noff = \"dark.png\"").find("of an exposure (2)"),
+            std::string::npos);
+  for (int i = 101; i < 104; ++i) {
+    std::filesystem::remove(folder_ / ("f" + std::to_string(i) + ".png"));
+  }
+  EXPECT_NE(complaint("alternating = \"on-off-on\"").find("3 frames per position"),
+            std::string::npos);
 }
 
 }  // namespace
