@@ -155,8 +155,24 @@ ExtractResult extract_from_log(const ExtractArguments& a, const Session& session
       {.num_threads = session.num_threads, .progress = session.progress("reading the log")});
 }
 
+bool is_same_place(const std::filesystem::path& a, const std::filesystem::path& b) {
+  namespace fs = std::filesystem;
+  return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
+}
+
+/// A scan written under the log's name would take the place of the recording.
+void check_outputs(const ExtractArguments& a) {
+  for (const auto& path : a.out) {
+    check_output(path, {".pcd", ".ply", ".asc"});
+    require(a.log.empty() || !is_same_place(path, a.log),
+            "expected --log and --out to name two files, got '",
+            path.string(),
+            "' for both, where the scan would replace the log; give the log another name");
+  }
+}
+
 void run(const ExtractArguments& a, Session& session) {
-  for (const auto& path : a.out) check_output(path, {".pcd", ".ply", ".asc"});
+  check_outputs(a);
   const bool from_log = file_kind(a.capture) == FileKind::kLog;
   const ExtractResult result =
       from_log ? extract_from_log(a, session) : extract_from_capture(a, session);

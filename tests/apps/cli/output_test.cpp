@@ -69,6 +69,16 @@ class Output : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(Output, AScanDoesNotReplaceTheLogOfItsRecording) {
+  for (const char* name : {"both.pcd", "./both.pcd", "capture/../both.pcd"}) {
+    const ProgramRun refused =
+        run("facula extract capture --log both.pcd --out " + std::string(name));
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_NE(refused.err.find("give the log another name"), std::string::npos) << refused.err;
+    EXPECT_FALSE(has_file_like(folder_.path(), "both"));
+  }
+}
+
 TEST_F(Output, JsonHoldsEveryFigurePrinted) {
   expect_same_figures("facula extract capture --out again.pcd");
   expect_same_figures("facula info scan.pcd");
