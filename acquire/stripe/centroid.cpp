@@ -88,6 +88,8 @@ class ThresholdCentroid : public RowDetector {
     while (row.holds(over.begin - 1) && row.at(over.begin - 1) > over.level) --over.begin;
     while (row.holds(over.end) && row.at(over.end) > over.level) ++over.end;
     if (!weigh(row, over, shape->background_count, *found)) return std::nullopt;
+    // A single pixel's mean is its middle, wherever in it the line lies.
+    if (over.end - over.begin == 1) found->sigma_step = static_cast<float>(1 / std::sqrt(12.0));
     return found;
   }
 

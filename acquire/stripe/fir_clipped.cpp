@@ -34,6 +34,11 @@ Edge edge_of(const SignalRow& row, int c, int step, double sigma, const StripeCa
   return {half, std::max(0.0, clip) * half / w2};
 }
 
+/// Share of the noise of a Gaussian derivative that lies farther out than z of its widths.
+double noise_beyond(double z) {
+  return std::erfc(z) + 2 * z * std::exp(-z * z) / std::sqrt(kPi);
+}
+
 }  // namespace
 
 void judge_clipped(const SignalRow& row, float sigma, float bend, StripeCandidate& found) {
@@ -42,11 +47,12 @@ void judge_clipped(const SignalRow& row, float sigma, float bend, StripeCandidat
   const auto s = static_cast<double>(sigma);
   const Edge left = edge_of(row, c, -1, s, found);
   const Edge right = edge_of(row, c, 1, s, found);
-  const double half = 0.5 * (left.half + right.half);
-  const double z = half / s;
-  const double share = std::erfc(z) + 2 * z * std::exp(-z * z) / std::sqrt(kPi);
+  // One side at a time: beside a clipped surface the other edge may lie far away.
+  const double share = 0.5 * (noise_beyond(left.half / s) + noise_beyond(right.half / s));
   found.sigma_per_noise *= static_cast<float>(std::sqrt(share));
 
+  const double half = 0.5 * (left.half + right.half);
+  const double z = half / s;
   const double kernel = half / (s * s) * std::exp(-0.5 * z * z) / (s * std::sqrt(2 * kPi));
   const double kink = 0.5 * (left.slope + right.slope);
   const double most = kink * kernel / (kPi * kPi * static_cast<double>(bend));

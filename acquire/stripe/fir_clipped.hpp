@@ -18,7 +18,8 @@ namespace facula {
 /// to a twentieth of a pixel.
 ///
 /// Noise: clipped pixels have none. The derivative's square x^2 exp(-x^2 / s^2) has the share
-/// erfc(z) + 2 z exp(-z^2) / sqrt(pi) beyond h, z = h / s.
+/// erfc(z) + 2 z exp(-z^2) / sqrt(pi) beyond h, z = h / s; each side, with its own h, is half of
+/// it.
 void judge_clipped(const SignalRow& row, float sigma, float bend, StripeCandidate& found);
 
 }  // namespace facula

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/stripe/fir_clipped.hpp>
 #include <facula/acquire/stripe/stripe_detector.hpp>
 #include <facula/tests/acquire/stripe/line_image.hpp>
 #include <facula/tests/support/matchers.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -261,6 +264,33 @@ TEST(StripeDetector, RefusesOptionsOutOfRange) {
   }
   EXPECT_NE(error_of([] { detector_from_name("fur"); }).find("fir, centroid"), std::string::npos);
   EXPECT_NE(error_of([] { channel_from_name("rad"); }).find("red-excess"), std::string::npos);
+}
+
+TEST(StripeDetector, ThresholdCentroidOfOnePixelIsAsUnsureAsAPixelIsWide) {
+  Image8 image(40, 60);
+  for (int r = 0; r < image.rows; ++r) image.row(r)[30] = 200;
+  StripeOptions options;
+  options.detector = DetectorKind::kThresholdCentroid;
+  options.sigma = 1;
+  const StripeProfile profile = detect_stripe(image.view(), {}, options);
+  ASSERT_EQ(profile.seen_count(), 40U);
+  EXPECT_EQ(profile.position[20], 30);
+  EXPECT_NEAR(profile.sigma[20], 1 / std::sqrt(12.0), 1e-6);
+}
+
+TEST(StripeDetector, ClippedSurfaceOnOneSideLeavesTheNoiseOfTheOther) {
+  std::vector<std::int16_t> values(80, 255);
+  std::vector<std::uint8_t> clipped(80, 1);
+  for (std::size_t c = 0; c < 40; ++c) {
+    values[c] = static_cast<std::int16_t>(c == 39 ? 120 : 30);
+    clipped[c] = 0;
+  }
+  StripeCandidate found;
+  found.position = 41;
+  found.sigma_per_noise = 1;
+  judge_clipped({values.data(), clipped.data(), 0, 80}, 2, 5, found);
+  EXPECT_GT(found.sigma_per_noise, 0.6F);
+  EXPECT_LE(found.sigma_per_noise, std::sqrt(0.5F));
 }
 
 TEST(StripeDetector, SurvivesTinyImages) {
