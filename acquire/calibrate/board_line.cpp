@@ -46,8 +46,10 @@ std::vector<Span> spans_of(const std::vector<Eigen::Vector2d>& outline, int rows
     Eigen::Vector2d a = outline[i];
     Eigen::Vector2d b = outline[(i + 1) % outline.size()];
     if (a.y() > b.y()) std::swap(a, b);
-    const int from = std::max(0, static_cast<int>(std::ceil(a.y())));
-    const int to = std::min(rows - 1, static_cast<int>(std::floor(b.y())));
+    // A corner close to the camera may be seen farther out than whole numbers reach.
+    const auto inside = [&](double y) { return std::clamp(y, -1.0, rows + 0.0); };
+    const int from = std::max(0, static_cast<int>(std::ceil(inside(a.y()))));
+    const int to = std::min(rows - 1, static_cast<int>(std::floor(inside(b.y()))));
     for (int r = from; r <= to; ++r) {
       const double share = b.y() > a.y() ? (r - a.y()) / (b.y() - a.y()) : 0;
       const double x = std::clamp(a.x() + share * (b.x() - a.x()), -1.0, cols + 1.0);

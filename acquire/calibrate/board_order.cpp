@@ -102,7 +102,8 @@ bool order_like_board(ImageView8 grey, const Board& board, GridSeen& grid) {
     return true;
   }
   if (square && first_square(grey, grid) > 0) turn_quarter(grid);
-  turn_upright(grid, false);
+  // With all four corner squares alike a quarter turn is open as well.
+  turn_upright(grid, square && grid.cols % 2 == 0);
   return true;
 }
 

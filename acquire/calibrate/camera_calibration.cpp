@@ -117,6 +117,16 @@ bool usable(const std::optional<BundleResult>& fit) {
   return true;
 }
 
+/// Terms that are not fitted stay as they start: at 0, whatever an earlier fit made of them.
+CameraBundle without_held_terms(CameraBundle start, const BundleOptions& options) {
+  Camera& camera = start.camera;
+  if (options.radial_terms < 1) camera.k1 = 0;
+  if (options.radial_terms < 2) camera.k2 = 0;
+  if (options.radial_terms < 3) camera.k3 = 0;
+  if (!options.tangential) camera.p1 = camera.p2 = 0;
+  return start;
+}
+
 /// Fits with as many distortion terms as asked for, with fewer where these fold the image.
 BundleResult fit_camera(const Board& board,
                         const std::vector<BoardView>& views,
@@ -127,10 +137,10 @@ BundleResult fit_camera(const Board& board,
   BundleOptions simple = options;
   simple.radial_terms = std::min(1, options.radial_terms);
   simple.tangential = false;
-  const auto rough = fit_bundle(board, views, start, simple);
+  const auto rough = fit_bundle(board, views, without_held_terms(start, simple), simple);
   const CameraBundle& from = rough ? rough->bundle : start;
   while (true) {
-    auto fit = fit_bundle(board, views, from, options);
+    auto fit = fit_bundle(board, views, without_held_terms(from, options), options);
     if (usable(fit)) return std::move(*fit);
     require(options.radial_terms > 0 || options.tangential,
             "the views do not determine a camera: the fit does not converge; show the board tilted "

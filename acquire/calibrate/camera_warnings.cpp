@@ -49,8 +49,8 @@ void warn_of_cover(const std::vector<BoardView>& views, CameraCalibration& resul
   std::array<int, 9> points{};
   for (const BoardView& view : views) {
     for (const Eigen::Vector2d& p : view.pixels) {
-      const int col = std::clamp(static_cast<int>(3 * p.x() / view.image_width), 0, 2);
-      const int row = std::clamp(static_cast<int>(3 * p.y() / view.image_height), 0, 2);
+      const double col = std::floor(std::clamp(3 * p.x() / view.image_width, 0.0, 2.0));
+      const double row = std::floor(std::clamp(3 * p.y() / view.image_height, 0.0, 2.0));
       ++points[static_cast<std::size_t>(3 * row + col)];
     }
   }

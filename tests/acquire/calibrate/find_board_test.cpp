@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/calibrate/board.hpp>
+#include <facula/acquire/calibrate/board_detection.hpp>
+#include <facula/acquire/calibrate/board_order.hpp>
 #include <facula/acquire/calibrate/render_board.hpp>
 #include <facula/tests/acquire/calibrate/board_scene.hpp>
 #include <facula/tests/support/matchers.hpp>
@@ -129,8 +131,17 @@ TEST(FindBoard, SaysThatThereIsNothingLikeABoard) {
   for (auto& v : noise.pixels) v = static_cast<std::uint8_t>(random.below(200));
   for (const BoardKind kind : {BoardKind::kChessboard, BoardKind::kCircles, BoardKind::kCharuco}) {
     EXPECT_TRUE(says(find_board(noise.view(), board_of_kind(kind), "p").failure,
-                     "nothing like a " + to_string(kind)));
+                     "nothing like '" + to_string(kind)));
   }
+}
+
+TEST(FindBoard, TurnsRowsToTheRightWhereThePrintLeavesAQuarterOpen) {
+  const Image8 black(100, 100);
+  GridSeen grid{4, 4, {}};
+  for (int i = 0; i < 16; ++i) grid.pixels.emplace_back(80 - 20 * (i / 4), 10 + 20 * (i % 4));
+  ASSERT_TRUE(order_like_board(black.view(), {.cols = 4, .rows = 4}, grid));
+  EXPECT_EQ(grid.pixels.front(), Eigen::Vector2d(20, 10));
+  EXPECT_EQ(grid.pixels[3], Eigen::Vector2d(80, 10));
 }
 
 TEST(FindBoard, SeesACharucoBoardInPart) {
