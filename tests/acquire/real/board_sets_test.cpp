@@ -48,12 +48,15 @@ BoardPose pose_of(const CalibratedView& located) {
 
 TEST(PotSet, GivesAFlatterSheetThanThePublishedHalfMillimetre) {
   FACULA_REQUIRE_REAL_DATA(set, "laser/caltag_turntable_pot");
-  const auto files = sorted_files(set / "laser_plane_color");
+  // Every other of the 14 pictures: finding a board takes half a second.
+  auto files = sorted_files(set / "laser_plane_color");
+  for (std::size_t i = 1; i < files.size(); ++i)
+    files.erase(files.begin() + static_cast<std::ptrdiff_t>(i));
   // The author used 10 x 7 of the 11 x 7 corners.
   const Board board{.kind = BoardKind::kChessboard, .cols = 11, .rows = 7, .spacing = 0.021167};
   const auto views = find_all(board, files);
   const CameraCalibration camera = calibrate_camera(board, views);
-  EXPECT_EQ(camera.views.size(), 14U);
+  EXPECT_EQ(camera.views.size(), 7U);
   EXPECT_LT(camera.held_out_rms, 0.21);
   std::vector<BoardPose> poses;
   std::vector<LaserLineView> lines;
@@ -69,7 +72,7 @@ TEST(PotSet, GivesAFlatterSheetThanThePublishedHalfMillimetre) {
   }
   const LaserCalibration sheet = calibrate_laser(camera.camera, poses, lines);
   RecordProperty("held_out_um", static_cast<int>(1e6 * sheet.held_out_rms));
-  EXPECT_EQ(sheet.views.size(), 14U);
+  EXPECT_EQ(sheet.views.size(), 7U);
   EXPECT_LT(sheet.held_out_rms, 0.2e-3);  // 0.50 mm is published
 }
 

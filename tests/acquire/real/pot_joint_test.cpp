@@ -20,13 +20,17 @@
 namespace facula {
 namespace {
 
-/// The 14 pictures of the chessboard with the line on it.
+/// Every other of the 14 pictures of the chessboard with the line on it: finding a board takes half
+/// a second.
 void add_chessboard(const std::filesystem::path& folder,
                     const Capture& capture,
                     CalibrationSet& set) {
   BoardLineOptions options;
   options.stripe = capture.stripe;
-  for (const auto& file : list_frames(folder, "laser_plane_color/image*.png")) {
+  const auto files = list_frames(folder, "laser_plane_color/image*.png");
+  ASSERT_EQ(files.size(), 14U);
+  for (std::size_t f = 0; f < files.size(); f += 2) {
+    const auto& file = files[f];
     const Image8 picture = read_image(file);
     JointView view;
     view.points = find_board(picture.view(), set.boards[0], file.filename().string());
@@ -130,8 +134,9 @@ TEST(PotSetCalibratedJointly, HasAFlatterTableAndTwoBoardsThatContradict) {
   set.boards[1].rows = 10;
   set.boards[1].spacing = 0.025;
   add_chessboard(folder, capture, set);
+  const std::size_t by_hand = set.views.size();
   add_table(folder, capture, set);
-  ASSERT_EQ(set.views.size(), 86U);
+  ASSERT_EQ(set.views.size(), by_hand + 72);
 
   JointOptions options;
   options.camera = capture.rig.camera;
@@ -148,7 +153,7 @@ TEST(PotSetCalibratedJointly, HasAFlatterTableAndTwoBoardsThatContradict) {
   capture.rig = result.rig;
   for (std::size_t v = 0; v < set.views.size(); ++v) {
     if (!set.views[v].position) continue;
-    capture.positions[v - 14] = result.positions[v];
+    capture.positions[v - by_hand] = result.positions[v];
   }
   const double joint = table_rms(extract_scan(capture).scan, 0);
   RecordProperty("table_rms_published_um", static_cast<int>(published * 1e6));
