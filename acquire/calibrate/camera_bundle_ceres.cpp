@@ -7,6 +7,7 @@
 
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
+#include <glog/logging.h>
 
 namespace facula {
 namespace {
@@ -163,7 +164,11 @@ std::optional<Eigen::MatrixXd> camera_covariance(Fit& fit) {
   ceres::Covariance covariance(options);
   const double* block = fit.intrinsics.data();
   const std::vector<std::pair<const double*, const double*>> wanted{{block, block}};
-  if (!covariance.Compute(wanted, &fit.problem)) return std::nullopt;
+  // Ceres would print about boards that leave parameters open; the caller says it in a sentence.
+  const int printed_from = std::exchange(FLAGS_minloglevel, google::GLOG_FATAL);
+  const bool determined = covariance.Compute(wanted, &fit.problem);
+  FLAGS_minloglevel = printed_from;
+  if (!determined) return std::nullopt;
   Eigen::Matrix<double, kIntrinsics, kIntrinsics, Eigen::RowMajor> values;
   if (!covariance.GetCovarianceBlock(block, block, values.data())) return std::nullopt;
   if (!values.allFinite()) return std::nullopt;

@@ -42,6 +42,12 @@ int refinement_reach(const std::vector<cv::Point2f>& corners, int cols) {
   return std::clamp(static_cast<int>(0.4 * nearest), 2, 11);
 }
 
+bool shows_larger(ImageView8 grey, int cols, int rows) {
+  const auto seen = find_any_chessboard(grey);
+  return seen && (std::max(seen->cols, seen->rows) > std::max(cols, rows) ||
+                  std::min(seen->cols, seen->rows) > std::min(cols, rows));
+}
+
 }  // namespace
 
 std::optional<GridSeen> find_chessboard(ImageView8 grey, int cols, int rows) {
@@ -51,7 +57,9 @@ std::optional<GridSeen> find_chessboard(ImageView8 grey, int cols, int rows) {
   try {
     bool found = cv::findChessboardCornersSB(
         image, {cols, rows}, corners, cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY);
-    if (!found) {
+    // The older search finds boards of which the newer one sees a part only, but takes many seconds
+    // over a board that is larger than the wanted one.
+    if (!found && !shows_larger(grey, cols, rows)) {
       found = cv::findChessboardCorners(
           image,
           {cols, rows},

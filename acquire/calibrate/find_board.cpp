@@ -194,9 +194,9 @@ std::string reason(ImageView8 grey, const Board& board) {
     std::string other = other_grid(grey, board);
     if (!other.empty()) return other;
   }
-  return clause("nothing like a ",
+  return clause("nothing like '",
                 to_string(board.kind),
-                " of ",
+                "' of ",
                 board.cols,
                 " x ",
                 board.rows,

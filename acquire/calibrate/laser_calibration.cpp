@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 
 namespace facula {
 namespace {
@@ -74,7 +75,9 @@ void add_warnings(const std::vector<SheetView>& views, LaserCalibration& result)
                  " degrees only (1 sigma); hold the board nearer and farther"));
   }
   std::vector<double> spread;
-  for (const LaserViewResidual& view : result.views) spread.push_back(view.held_out_rms);
+  for (const LaserViewResidual& view : result.views) {
+    if (std::isfinite(view.held_out_rms)) spread.push_back(view.held_out_rms);
+  }
   const double usual = median(spread);
   for (const LaserViewResidual& view : result.views) {
     if (view.held_out_rms > 3 * usual && view.held_out_rms > 1e-4) {
@@ -93,6 +96,27 @@ void add_warnings(const std::vector<SheetView>& views, LaserCalibration& result)
         sentence(100 * result.outlier_share,
                  " % of the points count as outliers; the figures include them"));
   }
+}
+
+/// A sheet that the points leave open, or that is not what most of them lie on.
+void require_decided(const SheetFit& fit) {
+  constexpr double kMostTilt = 0.1;  // [rad], 1 sigma
+  constexpr double kMostOutliers = 0.3;
+  const double variance = std::max(fit.covariance(0, 0), fit.covariance(1, 1));
+  const Eigen::VectorXd scale = fit.covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd correlation = scale.asDiagonal() * fit.covariance * scale.asDiagonal();
+  const bool sound = correlation.allFinite() && Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+                                                    correlation, Eigen::EigenvaluesOnly)
+                                                        .eigenvalues()
+                                                        .minCoeff() > 0;
+  require(sound && variance < kMostTilt * kMostTilt,
+          "the points of the laser line leave the direction of the sheet open: the boards stand "
+          "in the same place, or nearly; hold them at several distances or tilts");
+  require(fit.outlier_share < kMostOutliers,
+          "expected one sheet of light through the lines on the boards, got ",
+          100 * fit.outlier_share,
+          " % of their points off the best one; check that the laser was on, that it is the same "
+          "in all pictures, and its colour and direction");
 }
 
 }  // namespace
@@ -137,6 +161,7 @@ LaserCalibration calibrate_laser(const Camera& camera,
           " mm long), through which any sheet passes; hold the board at several distances or "
           "tilts");
   const SheetFit fit = fit_sheet(views, options);
+  require_decided(fit);
   LaserCalibration result;
   result.plane = fit.plane;
   // Distances in mm, as the rig's parameters count.

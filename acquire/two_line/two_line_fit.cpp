@@ -3,6 +3,7 @@
 #include <facula/acquire/range/range_fit.hpp>
 #include <facula/acquire/two_line/two_line_fit.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -24,6 +25,14 @@ double parallel_spacing(const std::vector<TwoLinePoint>& points, std::size_t wit
 
 void check_points(const std::vector<TwoLinePoint>& points) {
   require(points.size() >= 2, "expected separations at two or more distances, got ", points.size());
+  require(std::any_of(points.begin(),
+                      points.end(),
+                      [&](const TwoLinePoint& p) { return p.distance != points[0].distance; }),
+          "all ",
+          points.size(),
+          " distances are equal (",
+          1000 * points[0].distance,
+          " mm): nothing checks the spacing they give; measure near and far ones");
   for (const TwoLinePoint& p : points) {
     require(std::isfinite(p.separation) && std::isfinite(p.distance) && p.distance > 0,
             "expected finite separations and distances above 0, got ",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/calibrate/camera_calibration.hpp>
+#include <facula/acquire/core/error.hpp>
 #include <facula/acquire/rig/covariance_block.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
 #include <facula/acquire/rig/rig_parameters.hpp>
@@ -83,6 +84,8 @@ void run(const CameraArguments& a, Session& session) {
   const Board board = board_of(a.board);
   CameraCalibrationOptions options = a.options;
   options.tangential = !a.no_tangential;
+  require(
+      a.options.radial_terms <= 3, "--radial-terms: expected 0 to 3, got ", a.options.radial_terms);
   options.check();
   Rig rig;
   if (!a.rig.empty()) rig = read_rig(a.rig, RigParts::kCamera);

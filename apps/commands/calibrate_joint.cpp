@@ -145,8 +145,24 @@ void declare_example(Arguments& arguments, ExampleArguments& a) {
   arguments.flag("--overwrite", a.overwrite, "replace an earlier set in that folder");
 }
 
+void require_in_range(const ExampleArguments& a) {
+  const SyntheticSetOptions& o = a.options;
+  const auto need = [](bool good, const char* option, const char* range, double got) {
+    require(good, option, ": expected ", range, ", got ", got);
+  };
+  const double span = a.span / kDegrees.factor;
+  need(o.distance > 0 && o.distance < 1000, "--distance-mm", "0 to 1000000", 1000 * o.distance);
+  need(span >= 0 && span <= 360, "--span-deg", "0 to 360", span);
+  need(o.hand_views <= 1000, "--hand-views", "0 to 1000", o.hand_views);
+  need(o.placements <= 1000, "--placements", "0 to 1000", o.placements);
+  need(o.point_noise >= 0 && o.point_noise < 100, "--noise-px", "0 to 100", o.point_noise);
+  need(o.second_scale > 0.1 && o.second_scale < 10, "--second-size", "0.1 to 10", o.second_scale);
+  need(o.wrong_share >= 0 && o.wrong_share <= 1, "--wrong-share", "0 to 1", o.wrong_share);
+}
+
 void run_example(const ExampleArguments& a, Session& session) {
   const Rig rig = read_rig(a.rig);
+  require_in_range(a);
   SyntheticSetOptions options = a.options;
   options.seed = a.seed;
   options.boards = options.second_scale == 1 ? 1 : 2;

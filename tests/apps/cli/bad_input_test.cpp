@@ -199,6 +199,78 @@ TEST_F(BadInput, PipeIsNotReplacedByAFile) {
   EXPECT_EQ(run("test -p pipe.json").code, 0);
 }
 
+TEST_F(BadInput, TablesThatDecideNoRangeModel) {
+  const auto refused = [this](const std::string& rows, const std::string& words) {
+    expect_refused("printf 'distance_mm,position_px\\n" + rows + "' > t.csv",
+                   "facula calibrate range t.csv --rig data/rigs/head_fs760.toml --out result.toml",
+                   words);
+  };
+  refused("", "the header alone");
+  refused("1000,300\\n2000,400\\n", "different distances");
+  refused("1000,300\\n1000,300\\n1000,301\\n", "one distance");
+  refused("500,200\\n1000,200\\n2000,200\\n", "does not move");
+  refused("1000,300\\n2000,375\\n3000,nan\\n", "line 4");
+  refused("-500,200\\n1000,300\\n2000,350\\n", "above 0");
+  refused("500,200\\n1000,300\\n2000,250\\n3000,410\\n", "infinity");
+}
+
+TEST_F(BadInput, TablesThatDecideNoProfile) {
+  const auto refused = [this](const std::string& rows, const std::string& words) {
+    expect_refused("printf '" + rows + "' > t.csv",
+                   "facula calibrate profile t.csv --rig data/rigs/profile_bench.toml --degree 4 "
+                   "--out result.toml",
+                   words);
+  };
+  refused("position_px,size_mm\\n1,5\\n2,6\\n3,7\\n", "degree 4");
+  refused("position_px,size_mm\\n1,5\\n1,6\\n1,7\\n", "different positions");
+  refused("across_mm,height_mm,x_px,y_px\\n0,0,1,1\\n1,0,2,1\\n2,0,3,1\\n3,0,4,1\\n4,0,5,1\\n",
+          "one line");
+}
+
+TEST_F(BadInput, TablesThatDecideNoTwoLineHead) {
+  const auto refused = [this](const std::string& rows, const std::string& words) {
+    expect_refused("printf 'distance_mm,separation_px\\n" + rows + "' > t.csv",
+                   "facula calibrate two-line t.csv --rig data/rigs/two_line_air.toml --out "
+                   "result.toml",
+                   words);
+  };
+  refused("1000,50\\n", "two or more distances");
+  refused("1000,50\\n1000,50\\n", "equal");
+  refused("1000,0\\n2000,0\\n", "above 0");
+  refused("1000,50\\n2000,100\\n3000,150\\n", "grow with the distance");
+}
+
+TEST_F(BadInput, WallsThatDecideNoCompensation) {
+  const auto refused = [this](const std::string& rows, const std::string& words) {
+    expect_refused("printf '" + rows + "' > t.csv",
+                   "facula calibrate compensation t.csv --rig data/rigs/head_fs760.toml --out "
+                   "result.toml",
+                   words);
+  };
+  refused("true_m,top_px,centre_px,bottom_px\\n1,100,101,102\\n", "two walls");
+  refused("true_m,top_px,centre_px,bottom_px\\n1,9,9,9\\n2,9,9,9\\n", "out of order");
+  refused("distance_mm,frame\\n1000,none.png\\n", "none.png");
+}
+
+TEST_F(BadInput, PicturesThatDecideNoCameraAndNoSheet) {
+  const std::string board = " --cols 9 --rows 6 --spacing-mm 12 ";
+  const std::string rig = " --rig data/rigs/ciclop_turntable.toml ";
+  const auto refused = [&](const std::string& command, const std::string& words) {
+    expect_refused("true", "facula calibrate " + command + " --out result.toml", words);
+  };
+  ASSERT_EQ(run("facula calibrate board" + rig + board + "--views 3 --lit --out b").code, 0);
+  ASSERT_EQ(run("facula calibrate board" + rig + board + "--views 3 --tilt-deg 0 --out f").code, 0);
+  refused("camera b/dark_0.png" + board, "3 pictures or more");
+  refused("camera b/dark_0.png b/dark_1.png" + board, "3 pictures or more");
+  refused("camera b/dark_0.png b/dark_0.png b/dark_0.png" + board, "parallel to each other");
+  refused("camera f/dark_0.png f/dark_1.png f/dark_2.png" + board, "parallel to each other");
+  refused("camera b/dark_0.png b/dark_1.png b/dark_2.png --cols 8 --rows 6 --spacing-mm 12",
+          "9 x 6 points instead of 8 x 6");
+  refused("laser b/lit_0.png" + board + rig, "2 pictures or more");
+  refused("laser b/lit_0.png b/lit_0.png" + board + rig, "hold the board at several distances");
+  refused("laser b/dark_0.png b/dark_1.png b/dark_2.png" + board + rig, "line");
+}
+
 TEST_F(BadInput, TooLittleMemoryIsASentence) {
   ASSERT_EQ(run("facula extract capture --out s.pcd").code, 0);
   expect_refused("true", "ulimit -v 3000000; facula map s.pcd --resolution-mm 0.5 --out result.bt");

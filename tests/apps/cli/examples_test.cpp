@@ -31,7 +31,7 @@ TEST_P(Examples, OfTheHelpRunAndAreQuietWithoutTerminal) {
 
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
-  for (char& letter : name) letter = letter == ' ' ? '_' : letter;
+  for (char& letter : name) letter = letter == ' ' || letter == '-' ? '_' : letter;
   return name;
 }
 
