@@ -145,6 +145,25 @@ std::optional<Parameters> solve(const std::vector<RangePoint>& points,
   return p;
 }
 
+/// Two points or more must differ in both what was seen and what was measured.
+void check_spread(const std::vector<RangePoint>& points, std::size_t different_distances) {
+  const auto [least, most] = std::minmax_element(
+      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.px < b.px; });
+  require(least->px < most->px,
+          "all ",
+          points.size(),
+          " positions are equal (",
+          points.front().px,
+          " px): a line that does not move with the distance measures none; check that the "
+          "positions are those of the laser line");
+  require(different_distances > 1,
+          "all ",
+          points.size(),
+          " distances are equal (",
+          1000 * points.front().distance,
+          " mm): one distance cannot give slope and vanishing position; measure near and far ones");
+}
+
 void check_points(const std::vector<RangePoint>& points, const RangeFitOptions& options) {
   const std::size_t parameters = options.terms == RangeTerms::kPlain ? 2 : 3;
   std::set<double> distances;
@@ -158,21 +177,7 @@ void check_points(const std::vector<RangePoint>& points, const RangeFitOptions& 
     require(point.distance > 0, "expected distances above 0, got ", 1000 * point.distance, " mm");
     distances.insert(point.distance);
   }
-  const auto [least, most] = std::minmax_element(
-      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.px < b.px; });
-  require(points.size() < 2 || least->px < most->px,
-          "all ",
-          points.size(),
-          " positions are equal (",
-          points.front().px,
-          " px): a line that does not move with the distance measures none; check that the "
-          "positions are those of the laser line");
-  require(distances.size() != 1 || points.size() == 1,
-          "all ",
-          points.size(),
-          " distances are equal (",
-          1000 * points.front().distance,
-          " mm): one distance cannot give slope and vanishing position; measure near and far ones");
+  if (points.size() > 1) check_spread(points, distances.size());
   require(distances.size() > parameters,
           "expected at least ",
           parameters + 1,

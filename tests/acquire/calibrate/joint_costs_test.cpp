@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <facula/acquire/calibrate/joint_costs_bridge.hpp>
+#include <facula/acquire/calibrate/ceres_bridge.hpp>
 #include <facula/acquire/core/random.hpp>
 
 #include <array>

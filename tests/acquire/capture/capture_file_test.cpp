@@ -180,7 +180,7 @@ TEST_F(CaptureFile, AsksForBothHalvesOfAZeroLine) {
   EXPECT_TRUE(complains_of("'zero_line.bed_rows': expected finite numbers"));
   folder_.write("capture.toml",
                 frames_only + "[zero_line]\nbed_rows = [[0, 3]]\nbed_position_px = 30\n");
-  EXPECT_TRUE(complains_of("lit1.png': only 4 bed rows show the stripe"));
+  EXPECT_TRUE(complains_of("against its zero line: only 4 bed rows show the stripe"));
   write_capture("on = \"lit*.png\"", "step_deg = 2");
   folder_.write("capture.toml",
                 read_text(folder_ / "capture.toml") + "[zero_line]\nbed_position_px = 30\n");
