@@ -30,9 +30,9 @@ check_file() {
   # The second line counts too: a script starts with #!, a page with its document type.
   [[ $(head -n 2 "$file") == *SPDX-License-Identifier:* ]] ||
     complain "$file: no SPDX line at the top"
-  local guard='^#pragma once$'
-  [[ $file != *-inl.hpp ]] || guard='defined\(HWY_TARGET_TOGGLE\)'
-  [[ $file != *.hpp ]] || grep -q -E "$guard" "$file" || complain "$file: no line $guard"
+  local guard='#pragma once'
+  [[ $file != *-inl.hpp ]] || guard='defined(HWY_TARGET_TOGGLE)'
+  [[ $file != *.hpp ]] || grep -q -F "$guard" "$file" || complain "$file: no $guard"
 }
 
 check_functions() {
