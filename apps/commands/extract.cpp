@@ -118,8 +118,9 @@ void require_stripes(const ExtractResult& result) {
   require(result.stripes_seen > 0,
           "expected the laser line in the frames, got none in ",
           result.frames,
-          " of them; check that the laser was on, then try another --channel, the width of the "
-          "line as --sigma-px or a lower --min-snr");
+          " of them; check that the laser was on and shone into the capture's [volume], if it has "
+          "one, then try another --channel, the width of the line as --sigma-px or a lower "
+          "--min-snr");
   require(result.scan.valid_count() > 0,
           "expected points within the capture's volume, got none of ",
           result.stripes_seen,
