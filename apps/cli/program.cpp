@@ -158,6 +158,7 @@ int unknown_second_word(const std::vector<std::string>& words,
 
 int unknown_command(const std::vector<std::string>& words, const std::vector<Command>& commands) {
   std::vector<std::string> names;
+  names.reserve(commands.size());
   for (const Command& command : commands) names.push_back(command.name);
   const std::string typed =
       words.size() > 1 && !words[1].starts_with("-") ? words[0] + " " + words[1] : words[0];

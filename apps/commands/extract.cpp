@@ -185,6 +185,10 @@ void run(const ExtractArguments& a, Session& session) {
   }
 }
 
+constexpr const char* kMakeRoom =
+    "facula simulate data/scenes/furnished_room.toml --rig data/rigs/head_fs1500.toml --from-deg 0 "
+    "--to-deg 10 --step-deg 1 --position-mm -1500 -300 1100 --out room";
+
 }  // namespace
 
 Command extract_command() {
@@ -197,9 +201,7 @@ Command extract_command() {
               "scan with a standard deviation per point. With --log everything about the line goes "
               "to one small file as it is found, frame by frame, from which the same scan can be "
               "made again, or a better one with a newer rig or another detector.",
-          .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
-                       "data/rigs/head_fs1500.toml --from-deg 0 --to-deg 10 --step-deg 1 "
-                       "--position-mm -1500 -300 1100 --out room",
+          .examples = {kMakeRoom,
                        "facula extract room --out room.pcd --out room.ply",
                        "facula extract room --detector centroid --min-snr 8 --out centroid.pcd",
                        "facula extract room --detector steger --median-of-three --out quiet.pcd",
