@@ -13,21 +13,21 @@ namespace {
 class DamagedLog : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    const Capture capture = logged_wall(*folder_ / "run", 5);
-    whole_ = new PolarScan(
-        extract_scan(capture, {.num_threads = 1, .log = *folder_ / "scan.flog"}).scan);
-    bytes_ = new std::string(read_whole_file(*folder_ / "scan.flog"));
+    shared_folder = new TemporaryFolder;
+    const Capture capture = logged_wall(*shared_folder / "run", 5);
+    whole_scan = new PolarScan(
+        extract_scan(capture, {.num_threads = 1, .log = *shared_folder / "scan.flog"}).scan);
+    recorded = new std::string(read_whole_file(*shared_folder / "scan.flog"));
   }
 
   static void TearDownTestSuite() {
-    delete bytes_;
-    delete whole_;
-    delete folder_;
+    delete recorded;
+    delete whole_scan;
+    delete shared_folder;
   }
 
   static std::filesystem::path write(const std::string& bytes) {
-    return folder_->write("damaged.flog", bytes);
+    return shared_folder->write("damaged.flog", bytes);
   }
 
   static std::string complaint(const std::string& bytes) {
@@ -37,7 +37,7 @@ class DamagedLog : public testing::Test {
 
   /// Every column that is not empty equals the true one.
   static testing::AssertionResult holds_true_columns(const PolarScan& scan) {
-    if (scan.rows != whole_->rows || scan.cols > whole_->cols) {
+    if (scan.rows != whole_scan->rows || scan.cols > whole_scan->cols) {
       return testing::AssertionFailure() << "the scan is of another size";
     }
     for (int col = 0; col < scan.cols; ++col) {
@@ -49,33 +49,33 @@ class DamagedLog : public testing::Test {
       const std::vector<float> range = column(scan.range);
       const bool empty = std::all_of(range.begin(), range.end(), [](float r) { return r == 0; });
       if (empty) continue;
-      if (range != column(whole_->range) || column(scan.sigma) != column(whole_->sigma) ||
+      if (range != column(whole_scan->range) || column(scan.sigma) != column(whole_scan->sigma) ||
           scan.axis_position[static_cast<std::size_t>(col)] !=
-              whole_->axis_position[static_cast<std::size_t>(col)]) {
+              whole_scan->axis_position[static_cast<std::size_t>(col)]) {
         return testing::AssertionFailure() << "column " << col << " is another";
       }
     }
     return testing::AssertionSuccess();
   }
 
-  static TemporaryFolder* folder_;
-  static PolarScan* whole_;
-  static std::string* bytes_;
+  static TemporaryFolder* shared_folder;
+  static PolarScan* whole_scan;
+  static std::string* recorded;
 };
 
-TemporaryFolder* DamagedLog::folder_ = nullptr;
-PolarScan* DamagedLog::whole_ = nullptr;
-std::string* DamagedLog::bytes_ = nullptr;
+TemporaryFolder* DamagedLog::shared_folder = nullptr;
+PolarScan* DamagedLog::whole_scan = nullptr;
+std::string* DamagedLog::recorded = nullptr;
 
 TEST_F(DamagedLog, IsCalledByWhatIsWrongWithIt) {
   EXPECT_NE(complaint("").find("no stripe log"), std::string::npos);
   EXPECT_NE(complaint("# .PCD v0.7").find("no stripe log"), std::string::npos);
-  EXPECT_NE(complaint(bytes_->substr(0, 30)).find("ends within its header"), std::string::npos);
-  EXPECT_NE(complaint(bytes_->substr(0, 200)).find("ends within its header"), std::string::npos);
-  std::string other = *bytes_;
+  EXPECT_NE(complaint(recorded->substr(0, 30)).find("ends within its header"), std::string::npos);
+  EXPECT_NE(complaint(recorded->substr(0, 200)).find("ends within its header"), std::string::npos);
+  std::string other = *recorded;
   other[8] = 9;
   EXPECT_NE(complaint(other).find("version 9"), std::string::npos);
-  other = *bytes_;
+  other = *recorded;
   other[100] = static_cast<char>(other[100] ^ 1);
   EXPECT_NE(complaint(other).find("checksum differs"), std::string::npos);
   EXPECT_NE(error_of([] { const StripeLogReader log("nowhere.flog"); }).find("no such file"),
@@ -83,17 +83,17 @@ TEST_F(DamagedLog, IsCalledByWhatIsWrongWithIt) {
 }
 
 TEST_F(DamagedLog, WithoutAnyRecordSaysThatNothingWasRecorded) {
-  const StripeLogReader whole(*folder_ / "scan.flog");
-  const std::size_t header = bytes_->size() - (whole.bytes() - 64 - whole.header().rig.size() -
-                                               whole.header().settings.size());
-  const StripeLogReader log(write(bytes_->substr(0, header)));
+  const StripeLogReader whole(*shared_folder / "scan.flog");
+  const std::size_t header = recorded->size() - (whole.bytes() - 64 - whole.header().rig.size() -
+                                                 whole.header().settings.size());
+  const StripeLogReader log(write(recorded->substr(0, header)));
   EXPECT_EQ(log.size(), 0U);
   EXPECT_NE(error_of([&] { extract_scan(log, log.settings()); }).find("no whole frame yet"),
             std::string::npos);
 }
 
 TEST_F(DamagedLog, WithATornTailLosesTheLastFrameAndSaysSo) {
-  const StripeLogReader log(write(bytes_->substr(0, bytes_->size() - 1)));
+  const StripeLogReader log(write(recorded->substr(0, recorded->size() - 1)));
   EXPECT_EQ(log.size(), 4U);
   EXPECT_GT(log.damage().torn_bytes, 1000U);
   EXPECT_EQ(log.damage().dropped_records, 0U);
@@ -104,10 +104,10 @@ TEST_F(DamagedLog, WithATornTailLosesTheLastFrameAndSaysSo) {
 }
 
 TEST_F(DamagedLog, FindsTheNextRecordBehindADamagedHead) {
-  const StripeLogReader whole(*folder_ / "scan.flog");
+  const StripeLogReader whole(*shared_folder / "scan.flog");
   const std::size_t header = 64 + whole.header().rig.size() + whole.header().settings.size();
   for (const std::size_t byte : {0U, 9U, 17U, 25U}) {
-    std::string bytes = *bytes_;
+    std::string bytes = *recorded;
     bytes[header + byte] = static_cast<char>(bytes[header + byte] ^ 0x40);
     const StripeLogReader log(write(bytes));
     EXPECT_EQ(log.size(), 4U) << byte;
@@ -126,7 +126,7 @@ TEST_F(DamagedLog, NeverGivesAWrongColumnNorCrashes) {
   int refused = 0;
   int read = 0;
   for (int round = 0; round < 600; ++round) {
-    std::string bytes = *bytes_;
+    std::string bytes = *recorded;
     bool cut = false;
     for (std::size_t change = 0; change <= below(3); ++change) {
       const std::size_t at = below(bytes.size());

@@ -74,7 +74,7 @@ inline testing::AssertionResult is_same_scan(const PolarScan& a, const PolarScan
   }
   std::size_t cells = 0;
   for (std::size_t i = 0; i < a.point.size(); ++i) {
-    cells += std::memcmp(&a.point[i], &b.point[i], sizeof(a.point[i])) != 0 ? 1U : 0U;
+    cells += std::memcmp(a.point[i].data(), b.point[i].data(), 3 * sizeof(float)) != 0 ? 1U : 0U;
   }
   if (cells > 0) return testing::AssertionFailure() << cells << " points differ";
   const bool rest = same_bytes(a.range, b.range) && same_bytes(a.yaw, b.yaw) &&
