@@ -13,7 +13,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-std::uint64_t SumBytes(const std::uint8_t* bytes, std::size_t count) {
+std::uint64_t sum_bytes(const std::uint8_t* bytes, std::size_t count) {
   std::uint64_t sum = 0;
   std::size_t i = 0;
 #if HWY_TARGET != HWY_SCALAR
@@ -43,10 +43,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace facula {
 
-HWY_EXPORT(SumBytes);
+HWY_EXPORT(sum_bytes);
 
 std::uint64_t plain_read(const std::uint8_t* bytes, std::size_t count) {
-  return HWY_DYNAMIC_DISPATCH(SumBytes)(bytes, count);
+  return HWY_DYNAMIC_DISPATCH(sum_bytes)(bytes, count);
 }
 
 }  // namespace facula

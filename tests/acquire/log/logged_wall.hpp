@@ -7,6 +7,8 @@
 #include <facula/tests/acquire/simulate/small_head.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
 
+#include <bit>
+#include <cstdint>
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -74,7 +76,12 @@ inline testing::AssertionResult is_same_scan(const PolarScan& a, const PolarScan
   }
   std::size_t cells = 0;
   for (std::size_t i = 0; i < a.point.size(); ++i) {
-    cells += std::memcmp(a.point[i].data(), b.point[i].data(), 3 * sizeof(float)) != 0 ? 1U : 0U;
+    bool same = true;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      same = same && std::bit_cast<std::uint32_t>(a.point[i][k]) ==
+                         std::bit_cast<std::uint32_t>(b.point[i][k]);
+    }
+    cells += same ? 0U : 1U;
   }
   if (cells > 0) return testing::AssertionFailure() << cells << " points differ";
   const bool rest = same_bytes(a.range, b.range) && same_bytes(a.yaw, b.yaw) &&
