@@ -17,6 +17,7 @@ void clean_scan(const PolarScan& read, PosedCloud& posed, PosedScans& scans) {
   PolarScan scan = read;
   scans.mixed_removed += remove_mixed_points(scan);
   posed.cloud = cloud_from_scan(scan);
+  posed.grid = grid_from_scan(scan);
 }
 
 bool is_grid(const std::filesystem::path& file) {

@@ -20,6 +20,7 @@ void read_pcd_scan(const std::filesystem::path& path, PosedCloud& scan) {
   if (table.height > 1) {
     const PolarScan polar = read_scan(path);
     scan.cloud = cloud_from_scan(polar);
+    scan.grid = grid_from_scan(polar);
     scan.world_from_scan = polar.world_from_scan;
   } else {
     scan.cloud = read_cloud(path);

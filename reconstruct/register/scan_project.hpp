@@ -3,6 +3,7 @@
 
 #include <facula/acquire/core/point_cloud.hpp>
 #include <facula/acquire/core/rigid_transform.hpp>
+#include <facula/acquire/core/scan_grid.hpp>
 
 #include <filesystem>
 #include <string>
@@ -16,6 +17,7 @@ struct PosedCloud {
   std::filesystem::path file;
   PointCloud cloud;
   RigidTransform world_from_scan;
+  ScanGrid grid;  ///< of the cloud's points; empty where the file has none
 };
 
 /// Several scans with their poses.
