@@ -2,7 +2,7 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/stripe/blais_rioux.hpp>
 #include <facula/acquire/stripe/line_bias.hpp>
-#include <facula/acquire/stripe/peak_shape.hpp>
+#include <facula/acquire/stripe/peak_detector.hpp>
 #include <facula/acquire/stripe/position_noise.hpp>
 
 #include <algorithm>
@@ -11,32 +11,28 @@
 namespace facula {
 namespace {
 
-class BlaisRioux : public RowDetector {
+class BlaisRioux : public PeakDetector {
  public:
-  BlaisRioux(double sigma, int taps) : sigma_(sigma), half_(taps / 2) {
+  BlaisRioux(double sigma, int taps) : PeakDetector(sigma), half_(taps / 2) {
     require(taps >= 2 && taps % 2 == 0,
             "Blais-Rioux detector: expected an even number of taps, at least 2, got ",
             taps);
   }
 
-  std::optional<StripeCandidate> measure(const StripeSignal& signal,
-                                         int r,
-                                         int peak) const override {
-    const SignalRow row = signal.row(r);
-    const auto shape = peak_shape(row, peak, sigma_);
-    if (!shape) return std::nullopt;
-    auto found = describe_peak(row, *shape);
-    const auto zero = nearest_zero(row, *shape);
-    if (!found || !zero) return std::nullopt;
-    found->position = static_cast<float>(zero->column + zero->share());
-    carry_noise(row, *zero, shape->background, *found);
-    const double width = std::max(0.5, static_cast<double>(found->width));
-    found->sigma_step =
+ private:
+  bool place(const Peak& peak, StripeCandidate& found) const override {
+    const SignalRow& row = peak.row;
+    const PeakShape& shape = peak.shape;
+    const auto zero = nearest_zero(row, shape);
+    if (!zero) return false;
+    found.position = static_cast<float>(zero->column + zero->share());
+    carry_noise(row, *zero, shape.background, found);
+    const double width = std::max(0.5, static_cast<double>(found.width));
+    found.sigma_step =
         static_cast<float>(rms_bias([&](double place) { return bias(width, place); }));
-    return found;
+    return true;
   }
 
- private:
   /// The sum crosses zero downwards between column and column + 1.
   struct Zero {
     int column = 0;
@@ -107,7 +103,6 @@ class BlaisRioux : public RowDetector {
     return 0;
   }
 
-  double sigma_;
   int half_;
 };
 

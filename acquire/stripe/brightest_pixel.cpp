@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/stripe/brightest_pixel.hpp>
-#include <facula/acquire/stripe/peak_shape.hpp>
+#include <facula/acquire/stripe/peak_detector.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -8,29 +8,23 @@
 namespace facula {
 namespace {
 
-class BrightestPixel : public RowDetector {
+class BrightestPixel : public PeakDetector {
  public:
   BrightestPixel(double sigma, double threshold, bool halves)
-      : sigma_(sigma), threshold_(threshold), halves_(halves) {}
-
-  std::optional<StripeCandidate> measure(const StripeSignal& signal,
-                                         int r,
-                                         int peak) const override {
-    const SignalRow row = signal.row(r);
-    const auto shape = peak_shape(row, peak, sigma_);
-    if (!shape || shape->height() < threshold_) return std::nullopt;
-    auto found = describe_peak(row, *shape);
-    if (!found) return std::nullopt;
-    if (halves_) found->position = 0.5F * static_cast<float>(shape->first + shape->last);
-    found->sigma_step = static_cast<float>(1 / std::sqrt(12.0));
-    const float w = found->width;
-    found->sigma_per_noise = std::numbers::sqrt2_v<float> * w * w / found->amplitude;
-    found->position_share = 1;  // the pixels that compete stand at the top
-    return found;
-  }
+      : PeakDetector(sigma), threshold_(threshold), halves_(halves) {}
 
  private:
-  double sigma_;
+  bool place(const Peak& peak, StripeCandidate& found) const override {
+    const PeakShape& shape = peak.shape;
+    if (shape.height() < threshold_) return false;
+    if (halves_) found.position = 0.5F * static_cast<float>(shape.first + shape.last);
+    found.sigma_step = static_cast<float>(1 / std::sqrt(12.0));
+    const float w = found.width;
+    found.sigma_per_noise = std::numbers::sqrt2_v<float> * w * w / found.amplitude;
+    found.position_share = 1;  // the pixels that compete stand at the top
+    return true;
+  }
+
   double threshold_;
   bool halves_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/stripe/centroid.hpp>
-#include <facula/acquire/stripe/peak_shape.hpp>
+#include <facula/acquire/stripe/peak_detector.hpp>
 #include <facula/acquire/stripe/position_noise.hpp>
 
 #include <algorithm>
@@ -40,61 +40,48 @@ bool weigh(const SignalRow& row, const Weighing& over, int level_count, StripeCa
   return true;
 }
 
-class Centroid : public RowDetector {
+class Centroid : public PeakDetector {
  public:
-  explicit Centroid(double sigma) : sigma_(sigma) {}
-
-  std::optional<StripeCandidate> measure(const StripeSignal& signal,
-                                         int r,
-                                         int peak) const override {
-    const SignalRow row = signal.row(r);
-    const auto shape = peak_shape(row, peak, sigma_);
-    if (!shape) return std::nullopt;
-    auto found = describe_peak(row, *shape);
-    if (!found) return std::nullopt;
-    const Weighing over = {std::max(row.begin, shape->middle() - kReach),
-                           std::min(row.end, shape->middle() + kReach + 1),
-                           shape->background};
-    if (!weigh(row, over, shape->background_count, *found)) return std::nullopt;
-    found->sigma_step = cut_by_window(static_cast<double>(found->width));
-    return found;
-  }
+  explicit Centroid(double sigma) : PeakDetector(sigma) {}
 
  private:
+  bool place(const Peak& peak, StripeCandidate& found) const override {
+    const SignalRow& row = peak.row;
+    const PeakShape& shape = peak.shape;
+    const Weighing over = {std::max(row.begin, shape.middle() - kReach),
+                           std::min(row.end, shape.middle() + kReach + 1),
+                           shape.background};
+    if (!weigh(row, over, shape.background_count, found)) return false;
+    found.sigma_step = cut_by_window(static_cast<double>(found.width));
+    return true;
+  }
+
   static float cut_by_window(double width) {
     constexpr double kHalf = kReach + 0.5;
     const double z = kHalf / std::max(0.1, width);
     const double density = std::exp(-0.5 * z * z) / (width * std::sqrt(2 * std::numbers::pi));
     return static_cast<float>(2 * kHalf * density / std::sqrt(12.0));
   }
-
-  double sigma_;
 };
 
-class ThresholdCentroid : public RowDetector {
+class ThresholdCentroid : public PeakDetector {
  public:
-  ThresholdCentroid(double sigma, double threshold) : sigma_(sigma), threshold_(threshold) {}
-
-  std::optional<StripeCandidate> measure(const StripeSignal& signal,
-                                         int r,
-                                         int peak) const override {
-    const SignalRow row = signal.row(r);
-    const auto shape = peak_shape(row, peak, sigma_);
-    if (!shape) return std::nullopt;
-    auto found = describe_peak(row, *shape);
-    if (!found) return std::nullopt;
-    Weighing over = {shape->middle(), shape->middle(), shape->background + threshold_};
-    if (!(row.at(over.begin) > over.level)) return std::nullopt;
-    while (row.holds(over.begin - 1) && row.at(over.begin - 1) > over.level) --over.begin;
-    while (row.holds(over.end) && row.at(over.end) > over.level) ++over.end;
-    if (!weigh(row, over, shape->background_count, *found)) return std::nullopt;
-    // A single pixel's mean is its middle, wherever in it the line lies.
-    if (over.end - over.begin == 1) found->sigma_step = static_cast<float>(1 / std::sqrt(12.0));
-    return found;
-  }
+  ThresholdCentroid(double sigma, double threshold) : PeakDetector(sigma), threshold_(threshold) {}
 
  private:
-  double sigma_;
+  bool place(const Peak& peak, StripeCandidate& found) const override {
+    const SignalRow& row = peak.row;
+    const PeakShape& shape = peak.shape;
+    Weighing over = {shape.middle(), shape.middle(), shape.background + threshold_};
+    if (!(row.at(over.begin) > over.level)) return false;
+    while (row.holds(over.begin - 1) && row.at(over.begin - 1) > over.level) --over.begin;
+    while (row.holds(over.end) && row.at(over.end) > over.level) ++over.end;
+    if (!weigh(row, over, shape.background_count, found)) return false;
+    // A single pixel's mean is its middle, wherever in it the line lies.
+    if (over.end - over.begin == 1) found.sigma_step = static_cast<float>(1 / std::sqrt(12.0));
+    return true;
+  }
+
   double threshold_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/stripe/log_gauss.hpp>
-#include <facula/acquire/stripe/peak_shape.hpp>
+#include <facula/acquire/stripe/peak_detector.hpp>
 #include <facula/acquire/stripe/position_noise.hpp>
 
 #include <algorithm>
@@ -61,32 +61,27 @@ std::optional<LogFit> fit(const FitWindow& window, const LogFit* before) {
   return found;
 }
 
-class LogGauss : public RowDetector {
+class LogGauss : public PeakDetector {
  public:
-  explicit LogGauss(double sigma) : sigma_(sigma) {}
-
-  std::optional<StripeCandidate> measure(const StripeSignal& signal,
-                                         int r,
-                                         int peak) const override {
-    const SignalRow row = signal.row(r);
-    const auto shape = peak_shape(row, peak, sigma_);
-    if (!shape) return std::nullopt;
-    auto found = describe_peak(row, *shape);
-    if (!found) return std::nullopt;
-    const FitWindow window = window_about(row, *shape, *found);
-    const auto rough = fit(window, nullptr);
-    if (!rough) return std::nullopt;
-    const auto line = fit(window, &*rough);
-    if (!line) return std::nullopt;
-    fill(window, *line, *shape, *found);
-    return found;
-  }
+  explicit LogGauss(double sigma) : PeakDetector(sigma) {}
 
  private:
+  bool place(const Peak& peak, StripeCandidate& found) const override {
+    const SignalRow& row = peak.row;
+    const PeakShape& shape = peak.shape;
+    const FitWindow window = window_about(row, shape, found);
+    const auto rough = fit(window, nullptr);
+    if (!rough) return false;
+    const auto line = fit(window, &*rough);
+    if (!line) return false;
+    fill(window, *line, shape, found);
+    return true;
+  }
+
   FitWindow window_about(const SignalRow& row,
                          const PeakShape& shape,
                          const StripeCandidate& found) const {
-    const double width = std::clamp(static_cast<double>(found.width), 0.7, 4 * sigma_);
+    const double width = std::clamp(static_cast<double>(found.width), 0.7, 4 * sigma());
     const double middle = 0.5 * (shape.first + shape.last);
     const double reach = std::max(1.0, 1.5 * width) + 0.5 * (shape.last - shape.first);
     FitWindow window;
@@ -117,8 +112,6 @@ class LogGauss : public RowDetector {
     noise.share_background(shape.background_count);
     noise.store(found);
   }
-
-  double sigma_;
 };
 
 }  // namespace

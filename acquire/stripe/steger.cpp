@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/stripe/fir_clipped.hpp>
 #include <facula/acquire/stripe/line_kernels.hpp>
-#include <facula/acquire/stripe/peak_shape.hpp>
+#include <facula/acquire/stripe/peak_detector.hpp>
 #include <facula/acquire/stripe/steger.hpp>
 
 #include <algorithm>
@@ -41,37 +41,32 @@ struct Ridge {
   double lean = 1;    ///< part of the ridge's normal that runs along the row [1]
 };
 
-class Steger : public RowDetector {
+class Steger : public PeakDetector {
  public:
-  explicit Steger(double sigma) : sigma_(sigma), kernels_(line_kernels(sigma)) {}
-
-  std::optional<StripeCandidate> measure(const StripeSignal& signal,
-                                         int r,
-                                         int peak) const override {
-    const SignalRow row = signal.row(r);
-    const auto shape = peak_shape(row, peak, sigma_);
-    if (!shape) return std::nullopt;
-    auto found = describe_peak(row, *shape);
-    if (!found) return std::nullopt;
-    const int reach = std::max(2, static_cast<int>(std::lround(2 * sigma_)));
-    const int from = shape->middle() - reach;
-    const int to = shape->middle() + reach;
-    const ColumnFilters columns = filter_columns(signal, r, from, to);
-    int c = shape->middle();
-    for (int step = 0; step < 5; ++step) {
-      const auto ridge = ridge_at(columns, c);
-      if (!ridge) return std::nullopt;
-      if (std::abs(ridge->beside) <= 0.5 + kPlay) {
-        fill(row, *ridge, c, *found);
-        return row.holds(c) ? found : std::nullopt;
-      }
-      c += static_cast<int>(std::lround(std::clamp(ridge->beside, -2.0, 2.0)));
-      if (c < from || c > to) return std::nullopt;
-    }
-    return std::nullopt;
-  }
+  explicit Steger(double sigma) : PeakDetector(sigma), kernels_(line_kernels(sigma)) {}
 
  private:
+  bool place(const Peak& peak, StripeCandidate& found) const override {
+    const SignalRow& row = peak.row;
+    const PeakShape& shape = peak.shape;
+    const int reach = std::max(2, static_cast<int>(std::lround(2 * sigma())));
+    const int from = shape.middle() - reach;
+    const int to = shape.middle() + reach;
+    const ColumnFilters columns = filter_columns(peak.signal, peak.r, from, to);
+    int c = shape.middle();
+    for (int step = 0; step < 5; ++step) {
+      const auto ridge = ridge_at(columns, c);
+      if (!ridge) return false;
+      if (std::abs(ridge->beside) <= 0.5 + kPlay) {
+        fill(row, *ridge, c, found);
+        return row.holds(c);
+      }
+      c += static_cast<int>(std::lround(std::clamp(ridge->beside, -2.0, 2.0)));
+      if (c < from || c > to) return false;
+    }
+    return false;
+  }
+
   static constexpr double kPlay = 0.1;       // so that a ridge between two pixels belongs to one
   static constexpr double kLeastLean = 0.3;  // a flatter line does not cross the row in one place
 
@@ -122,12 +117,11 @@ class Steger : public RowDetector {
     found.snr_per_noise =
         static_cast<float>(ridge.bend / (static_cast<double>(kernels_.curvature_norm) * quiet));
     const double w = std::max(0.5, static_cast<double>(found.width));
-    found.position_share = static_cast<float>(std::pow(1 + sigma_ * sigma_ / (2 * w * w), -1.5));
-    found.sigma_step = static_cast<float>(1 / (8 * std::sqrt(7.0) * (w * w + sigma_ * sigma_)));
-    if (found.saturated) judge_clipped(row, static_cast<float>(sigma_), bend, found);
+    found.position_share = static_cast<float>(std::pow(1 + sigma() * sigma() / (2 * w * w), -1.5));
+    found.sigma_step = static_cast<float>(1 / (8 * std::sqrt(7.0) * (w * w + sigma() * sigma())));
+    if (found.saturated) judge_clipped(row, static_cast<float>(sigma()), bend, found);
   }
 
-  double sigma_;
   LineKernels kernels_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/stripe/line_bias.hpp>
-#include <facula/acquire/stripe/peak_shape.hpp>
+#include <facula/acquire/stripe/peak_detector.hpp>
 #include <facula/acquire/stripe/position_noise.hpp>
 #include <facula/acquire/stripe/three_point.hpp>
 
@@ -57,42 +57,38 @@ double gauss_bias(double /*width*/, double /*place*/) {
   return 0;
 }
 
-class ThreePoint : public RowDetector {
+class ThreePoint : public PeakDetector {
  public:
   using VertexOf = std::optional<Vertex> (*)(const Triple&);
   using BiasOf = double (*)(double width, double place);
 
   ThreePoint(double sigma, VertexOf vertex_of, BiasOf bias_of)
-      : sigma_(sigma), vertex_of_(vertex_of), bias_of_(bias_of) {}
+      : PeakDetector(sigma), vertex_of_(vertex_of), bias_of_(bias_of) {}
 
-  std::optional<StripeCandidate> measure(const StripeSignal& signal,
-                                         int r,
-                                         int peak) const override {
-    const SignalRow row = signal.row(r);
-    const auto shape = peak_shape(row, peak, sigma_);
-    if (!shape || shape->last - shape->first > 1) return std::nullopt;
-    const int c = shape->first;
-    if (!row.holds(c - 1) || !row.holds(c + 1)) return std::nullopt;
-    const double level = shape->background;
+ private:
+  bool place(const Peak& peak, StripeCandidate& found) const override {
+    const SignalRow& row = peak.row;
+    const PeakShape& shape = peak.shape;
+    if (shape.last - shape.first > 1) return false;
+    const int c = shape.first;
+    if (!row.holds(c - 1) || !row.holds(c + 1)) return false;
+    const double level = shape.background;
     const Triple values = {row.at(c - 1) - level, row.at(c) - level, row.at(c + 1) - level};
     const auto top = vertex_of_(values);
-    auto found = describe_peak(row, *shape);
-    if (!top || !found) return std::nullopt;
-    found->position = static_cast<float>(c + top->offset);
+    if (!top) return false;
+    found.position = static_cast<float>(c + top->offset);
     PositionNoise noise;
     noise.add(top->weight.a, values.a);
     noise.add(top->weight.b, values.b);
     noise.add(top->weight.c, values.c);
-    noise.share_background(shape->background_count);
-    noise.store(*found);
-    const double width = std::max(0.5, static_cast<double>(found->width));
-    found->sigma_step =
+    noise.share_background(shape.background_count);
+    noise.store(found);
+    const double width = std::max(0.5, static_cast<double>(found.width));
+    found.sigma_step =
         static_cast<float>(rms_bias([&](double place) { return bias_of_(width, place); }));
-    return found;
+    return true;
   }
 
- private:
-  double sigma_;
   VertexOf vertex_of_;
   BiasOf bias_of_;
 };

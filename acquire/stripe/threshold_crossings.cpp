@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <facula/acquire/stripe/peak_shape.hpp>
+#include <facula/acquire/stripe/peak_detector.hpp>
 #include <facula/acquire/stripe/position_noise.hpp>
 #include <facula/acquire/stripe/threshold_crossings.hpp>
 
@@ -10,44 +10,38 @@
 namespace facula {
 namespace {
 
-class ThresholdCrossings : public RowDetector {
+class ThresholdCrossings : public PeakDetector {
  public:
   ThresholdCrossings(double sigma, std::vector<double> shares)
-      : sigma_(sigma), shares_(std::move(shares)) {}
+      : PeakDetector(sigma), shares_(std::move(shares)) {}
 
+ private:
   /// Rounding a crossing that noise n moves by n / slope adds (n / slope)^2 to its variance,
   /// however small the noise: a crossing delta before the next pixel falls to it with probability
   /// Q(delta slope / n) at the cost of 2 delta.
-  std::optional<StripeCandidate> measure(const StripeSignal& signal,
-                                         int r,
-                                         int peak) const override {
-    const SignalRow row = signal.row(r);
-    const auto shape = peak_shape(row, peak, sigma_);
-    if (!shape) return std::nullopt;
-    auto found = describe_peak(row, *shape);
-    if (!found) return std::nullopt;
+  bool place(const Peak& peak, StripeCandidate& found) const override {
+    const SignalRow& row = peak.row;
+    const PeakShape& shape = peak.shape;
     const double share_of_each = 0.5 / static_cast<double>(shares_.size());
     double position = 0;
     PositionNoise noise;
     std::vector<double> places;
     for (const double share : shares_) {
-      const auto at = crossings(row, *shape, share);
-      if (!at) return std::nullopt;
+      const auto at = crossings(row, shape, share);
+      if (!at) return false;
       position += share_of_each * (std::ceil(at->left) + std::floor(at->right));
-      noise.add(share_of_each / at->left_slope, share * shape->height());
-      noise.add(share_of_each / at->right_slope, share * shape->height());
+      noise.add(share_of_each / at->left_slope, share * shape.height());
+      noise.add(share_of_each / at->right_slope, share * shape.height());
       const double half = 0.5 * (at->right - at->left);
       places.push_back(half);
       places.push_back(-half);
     }
-    found->position = static_cast<float>(position);
-    found->sigma_step = static_cast<float>(std::sqrt(step_variance(places)));
-    noise.store(*found);
-    return found;
+    found.position = static_cast<float>(position);
+    found.sigma_step = static_cast<float>(std::sqrt(step_variance(places)));
+    noise.store(found);
+    return true;
   }
 
- private:
-  double sigma_;
   std::vector<double> shares_;  ///< of the height
 };
 
