@@ -4,6 +4,7 @@
 #include <facula/acquire/capture/frame_list.hpp>
 #include <facula/acquire/capture/frame_source.hpp>
 #include <facula/acquire/triangulate/extract_scan.hpp>
+#include <facula/tests/acquire/capture/small_rig.hpp>
 #include <facula/tests/acquire/stripe/line_image.hpp>
 #include <facula/tests/support/matchers.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
@@ -23,19 +24,7 @@ namespace {
 class CaptureFile : public testing::Test {
  protected:
   CaptureFile() {
-    folder_.write("rig.toml", R"([camera]
-width_px = 64
-height_px = 48
-fx_px = 60
-fy_px = 60
-cx_px = 31.5
-cy_px = 23.5
-[[laser]]
-normal = [1, 0, 0]
-distance_mm = 50
-[axis]
-kind = "pan"
-)");
+    write_small_rig(folder_);
     write_capture("on = \"lit*.png\"", "step_deg = 2");
     for (int i = 1; i <= 12; ++i) write_frame("lit" + std::to_string(i) + ".png", i);
   }

@@ -2,6 +2,7 @@
 #include <facula/acquire/capture/capture_file.hpp>
 #include <facula/acquire/capture/frame_source.hpp>
 #include <facula/acquire/triangulate/extract_scan.hpp>
+#include <facula/tests/acquire/capture/small_rig.hpp>
 #include <facula/tests/acquire/stripe/line_image.hpp>
 #include <facula/tests/support/matchers.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
@@ -16,21 +17,7 @@ namespace {
 /// A capture whose frames are named by what is in them.
 class FrameOrder : public testing::Test {
  protected:
-  FrameOrder() {
-    folder_.write("rig.toml", R"([camera]
-width_px = 64
-height_px = 48
-fx_px = 60
-fy_px = 60
-cx_px = 31.5
-cy_px = 23.5
-[[laser]]
-normal = [1, 0, 0]
-distance_mm = 50
-[axis]
-kind = "pan"
-)");
-  }
+  FrameOrder() { write_small_rig(folder_); }
 
   /// Writes frame number i: a line of an amplitude (0: none) over a level.
   void write(int i, double amplitude, double level = 20) {

@@ -2,12 +2,11 @@
 #include <facula/acquire/calibrate/camera_calibration.hpp>
 #include <facula/acquire/calibrate/laser_calibration.hpp>
 #include <facula/acquire/capture/frame_source.hpp>
-#include <facula/acquire/core/parallel.hpp>
 #include <facula/tests/acquire/calibrate/board_scene.hpp>
+#include <facula/tests/acquire/real/board_pictures.hpp>
 #include <facula/tests/support/real_data.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -26,24 +25,6 @@ std::vector<path> sorted_files(const path& folder) {
   }
   std::sort(files.begin(), files.end());
   return files;
-}
-
-std::vector<BoardView> find_all(const Board& board, const std::vector<path>& files) {
-  std::vector<BoardView> views(files.size());
-  parallel_for(files.size(),
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i) {
-                   views[i] =
-                       find_board(read_image(files[i]).view(), board, files[i].filename().string());
-                 }
-               },
-               {.chunk = 1});
-  return views;
-}
-
-BoardPose pose_of(const CalibratedView& located) {
-  return {located.camera_from_board,
-          located.pose_covariance(std::array{0, 1, 5}, std::array{0, 1, 5})};
 }
 
 TEST(PotSet, GivesAFlatterSheetThanThePublishedHalfMillimetre) {
