@@ -13,11 +13,15 @@ double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vec
   return ab.x() * ac.y() - ab.y() * ac.x();
 }
 
-/// Corners of the convex hull, counter-clockwise (Andrew's monotone chain, 1979).
+}  // namespace
+
 std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
+  // Andrew's monotone chain (1979).
   std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
   });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
   std::vector<Eigen::Vector2d> hull;
   const auto add_chain = [&hull](auto first, auto last) {
     const std::size_t base = hull.size();
@@ -34,7 +38,13 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
   return hull;
 }
 
-}  // namespace
+double polygon_area(const std::vector<Eigen::Vector2d>& corners) {
+  double twice = 0;
+  for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+    twice += turn(corners[0], corners[i + 1], corners[i + 2]);
+  }
+  return twice / 2;
+}
 
 RectangleSides smallest_bounding_rectangle(std::vector<Eigen::Vector2d> points) {
   if (points.empty()) return {};

@@ -18,10 +18,19 @@ struct Plane {
   double signed_distance(const Eigen::Vector3d& x) const { return normal.dot(x) - distance; }
 };
 
-/// A least-squares plane and how well the points lie on it.
+/// How the points count in a fit.
+struct PlaneFitOptions {
+  /// Weights 1 / (sigma along the normal)^2 where the cloud has sigma; else every point counts the
+  /// same, as the least-squares reference plane of ISO 12781 asks.
+  bool weigh_by_sigma = true;
+};
+
+/// A least-squares plane, how well the points lie on it, and how surely they decide it.
 struct PlaneFit {
   Plane plane;                                         ///< normal turned so that distance >= 0
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< mean of the points, weighted, in it [m]
+  Eigen::Vector3d axis_u = Eigen::Vector3d::UnitX();   ///< in the plane, where the points reach far
+  Eigen::Vector3d axis_v = Eigen::Vector3d::UnitY();   ///< normal x axis_u
   std::size_t points = 0;                              ///< [1]
   double rms = 0;             ///< standard deviation of the distances, n - 3 degrees of freedom [m]
   double mean_absolute = 0;   ///< mean |distance| (source C's "mean distance") [m]
@@ -30,13 +39,40 @@ struct PlaneFit {
   double width = 0;           ///< shorter side [m]
   double mean_range = 0;      ///< mean distance D from the sensor [m]
   double system_error = 0;    ///< 4 sigma / D (source C) [1]
+
+  /// Covariance of (a, b, h) [rad^2, rad m, m^2]: the true plane has the normal n + a axis_u +
+  /// b axis_v and lies h along n from the centroid. From the points' sigma along their rays, taken
+  /// as independent, times chi2 / degrees where that is above 1; from rms where there is no sigma.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+
+  /// How (a, b, h) answer a range error that all points share [rad/m, rad/m, 1]: what independent
+  /// errors leave out (a wrong calibration moves a whole plane).
+  Eigen::Vector3d range_response = Eigen::Vector3d::Zero();
+
   double normal_sigma = 0;    ///< 1 standard deviation of the normal's direction, worst axis [rad]
   double distance_sigma = 0;  ///< 1 standard deviation of the distance at the centroid [m]
+  double chi_squared = 0;     ///< sum of (distance / sigma)^2, 0 where there is no sigma [1]
+  std::size_t degrees_of_freedom = 0;    ///< points - 3 [1]
+  std::vector<Eigen::Vector3d> outline;  ///< convex hull of the points on the plane, anticlockwise
+                                         ///< about the normal [m]
+  double area = 0;                       ///< of the outline [m^2]
+
+  /// 1 standard deviation of the plane's place along the normal at the foot of x [m].
+  double sigma_at(const Eigen::Vector3d& x) const;
+
+  /// The covariance of (a, b, h) for a plane given at the foot of `x` instead of the centroid; at
+  /// the frame's origin, h is the plane's distance.
+  Eigen::Matrix3d covariance_at(const Eigen::Vector3d& x) const;
 };
 
-/// Orthogonal least squares over all points of the cloud. Needs three points or more that do not
-/// lie on a line; throws Error otherwise.
-PlaneFit fit_plane(const PointCloud& cloud);
+/// Orthogonal least squares over all finite points of the cloud. Needs three points or more that do
+/// not lie on a line; throws Error otherwise.
+PlaneFit fit_plane(const PointCloud& cloud, const PlaneFitOptions& options = {});
+
+/// The same over the points at `indices`.
+PlaneFit fit_plane(const PointCloud& cloud,
+                   const std::vector<std::size_t>& indices,
+                   const PlaneFitOptions& options = {});
 
 /// Angle between two planes [rad], in [0, pi/2].
 double angle_between(const Plane& a, const Plane& b);

@@ -5,103 +5,200 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 
 namespace facula {
 namespace {
 
-struct Moments {
-  std::size_t count = 0;
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();  ///< about the centroid
-  double mean_range = 0;
+constexpr int kWeightingRounds = 3;     // the normal that projects the sigmas settles at once
+constexpr double kLeastCosine = 0.087;  // along grazing rays the beam's width counts: 85 degrees
+
+/// The points of a fit as it wants them: doubles, with the direction and noise of their rays.
+struct Samples {
+  std::vector<Eigen::Vector3d> x;    ///< [m]
+  std::vector<Eigen::Vector3d> ray;  ///< from the sensor, unit length
+  std::vector<double> sigma;         ///< along the ray [m]; empty where there is none
+  double mean_range = 0;             ///< [m]
+
+  double sigma_along(const Eigen::Vector3d& normal, std::size_t i) const {
+    return sigma[i] * std::max(kLeastCosine, std::abs(ray[i].dot(normal)));
+  }
 };
 
-Moments moments_of(const PointCloud& cloud) {
-  Moments m;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
+Samples samples_of(const PointCloud& cloud, const std::vector<std::size_t>& indices) {
+  Samples samples;
+  samples.x.reserve(indices.size());
+  samples.ray.reserve(indices.size());
+  bool has_sigma = !cloud.sigma.empty();
+  for (const std::size_t i : indices) {
     if (!cloud.points[i].allFinite()) continue;
     const Eigen::Vector3d x = cloud.points[i].cast<double>();
     const Eigen::Vector3d eye = cloud.sensor_origin.empty()
                                     ? Eigen::Vector3d::Zero()
                                     : Eigen::Vector3d(cloud.sensor_origin[i].cast<double>());
-    m.centroid += x;
-    m.mean_range += (x - eye).norm();
-    ++m.count;
+    const double range = (x - eye).norm();
+    samples.x.push_back(x);
+    samples.ray.emplace_back(range > 0 ? Eigen::Vector3d((x - eye) / range)
+                                       : Eigen::Vector3d::Zero());
+    samples.mean_range += range;
+    has_sigma = has_sigma && std::isfinite(cloud.sigma[i]) && cloud.sigma[i] > 0;
+    if (has_sigma) samples.sigma.push_back(cloud.sigma[i]);
   }
-  require(m.count >= 3, "a plane needs at least 3 points, the cloud has ", m.count);
-  m.centroid /= static_cast<double>(m.count);
-  m.mean_range /= static_cast<double>(m.count);
-  for (const Eigen::Vector3f& p : cloud.points) {
-    if (!p.allFinite()) continue;
-    const Eigen::Vector3d d = p.cast<double>() - m.centroid;
-    m.scatter += d * d.transpose();
-  }
-  return m;
+  if (!has_sigma) samples.sigma.clear();
+  require(
+      samples.x.size() >= 3, "a plane needs at least 3 points, the cloud has ", samples.x.size());
+  samples.mean_range /= static_cast<double>(samples.x.size());
+  return samples;
 }
 
-/// The figures that need a second look at every point.
-void describe_distances(const PointCloud& cloud, PlaneFit& fit) {
+/// 1 / variance of every point along the normal; empty counts every point the same.
+std::vector<double> weights_along(const Samples& samples, const Eigen::Vector3d& normal) {
+  std::vector<double> weight(samples.x.size());
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    weight[i] = 1 / std::pow(samples.sigma_along(normal, i), 2);
+  }
+  return weight;
+}
+
+/// Sets centroid, axes and plane: the principal axes of the weighted points.
+void fit_axes(const Samples& samples, const std::vector<double>& weight, PlaneFit& fit) {
+  const auto w = [&weight](std::size_t i) { return weight.empty() ? 1.0 : weight[i]; };
+  const Eigen::Vector3d base = samples.x.front();  // far from the origin the squares lose digits
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double total = 0;
+  for (std::size_t i = 0; i < samples.x.size(); ++i) {
+    sum += w(i) * (samples.x[i] - base);
+    total += w(i);
+  }
+  fit.centroid = base + sum / total;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < samples.x.size(); ++i) {
+    const Eigen::Vector3d d = samples.x[i] - fit.centroid;
+    scatter += w(i) * d * d.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  require(solver.eigenvalues()(1) > 1e-10 * solver.eigenvalues()(2),
+          "the ",
+          samples.x.size(),
+          " points lie on one line or in one spot, so they decide no plane; add points beside it");
+  fit.plane.normal = solver.eigenvectors().col(0).normalized();
+  fit.plane.distance = fit.plane.normal.dot(fit.centroid);
+  if (fit.plane.distance < 0) fit.plane = {-fit.plane.normal, -fit.plane.distance};
+  fit.axis_u = solver.eigenvectors().col(2).normalized();
+  fit.axis_v = fit.plane.normal.cross(fit.axis_u);
+}
+
+void describe_distances(const Samples& samples, PlaneFit& fit) {
   double least = INFINITY;
   double most = -INFINITY;
   double squares = 0;
   double sizes = 0;
-  for (const Eigen::Vector3f& p : cloud.points) {
-    if (!p.allFinite()) continue;
-    const double d = fit.plane.normal.dot(p.cast<double>() - fit.centroid);
+  for (std::size_t i = 0; i < samples.x.size(); ++i) {
+    const double d = fit.plane.normal.dot(samples.x[i] - fit.centroid);
     least = std::min(least, d);
     most = std::max(most, d);
     squares += d * d;
     sizes += std::abs(d);
+    if (samples.sigma.empty()) continue;
+    fit.chi_squared += std::pow(d / samples.sigma_along(fit.plane.normal, i), 2);
   }
+  fit.points = samples.x.size();
+  fit.degrees_of_freedom = fit.points - 3;
   const double n = static_cast<double>(fit.points);
   fit.rms = fit.points > 3 ? std::sqrt(squares / (n - 3)) : 0;
   fit.mean_absolute = sizes / n;
   fit.peak_to_valley = most - least;
+  fit.mean_range = samples.mean_range;
+  fit.system_error = fit.mean_range > 0 ? 4 * fit.rms / fit.mean_range : 0;
 }
 
-void describe_extent(const PointCloud& cloud, const Eigen::Vector3d& along, PlaneFit& fit) {
-  const Eigen::Vector3d across = fit.plane.normal.cross(along);
-  std::vector<Eigen::Vector2d> flat;
-  flat.reserve(cloud.size());
-  for (const Eigen::Vector3f& p : cloud.points) {
-    if (!p.allFinite()) continue;
-    const Eigen::Vector3d d = p.cast<double>() - fit.centroid;
-    flat.emplace_back(d.dot(along), d.dot(across));
+/// The estimate is linear in the noise e: (a, b, h) = (J'WJ)^-1 J'W e with rows J = (-u, -v, 1), so
+/// its covariance is (J'WJ)^-1 J'W S W J (J'WJ)^-1 with S the points' own (GUM, 5.1.2 and F.1.2).
+void describe_uncertainty(const Samples& samples,
+                          const std::vector<double>& weight,
+                          PlaneFit& fit) {
+  const double freedom = static_cast<double>(fit.degrees_of_freedom);
+  const double misfit = freedom > 0 ? std::max(1.0, fit.chi_squared / freedom) : 1.0;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d shared = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < samples.x.size(); ++i) {
+    const double w = weight.empty() ? 1.0 : weight[i];
+    const Eigen::Vector3d d = samples.x[i] - fit.centroid;
+    const Eigen::Vector3d row(-d.dot(fit.axis_u), -d.dot(fit.axis_v), 1);
+    const double variance = samples.sigma.empty()
+                                ? fit.rms * fit.rms
+                                : misfit * std::pow(samples.sigma_along(fit.plane.normal, i), 2);
+    information += w * row * row.transpose();
+    noise += w * w * variance * row * row.transpose();
+    shared += w * samples.ray[i].dot(fit.plane.normal) * row;
   }
-  const RectangleSides sides = smallest_bounding_rectangle(std::move(flat));
+  const Eigen::Matrix3d inverse = information.inverse();
+  fit.covariance = inverse * noise * inverse;
+  fit.covariance = (fit.covariance + fit.covariance.transpose()).eval() / 2;
+  fit.range_response = inverse * shared;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> tilts(fit.covariance.topLeftCorner<2, 2>());
+  fit.normal_sigma = std::sqrt(std::max(0.0, tilts.eigenvalues()(1)));
+  fit.distance_sigma = std::sqrt(fit.covariance(2, 2));
+}
+
+void describe_extent(const Samples& samples, PlaneFit& fit) {
+  std::vector<Eigen::Vector2d> flat;
+  flat.reserve(samples.x.size());
+  for (const Eigen::Vector3d& x : samples.x) {
+    const Eigen::Vector3d d = x - fit.centroid;
+    flat.emplace_back(d.dot(fit.axis_u), d.dot(fit.axis_v));
+  }
+  const std::vector<Eigen::Vector2d> hull = convex_hull(std::move(flat));
+  fit.area = polygon_area(hull);
+  for (const Eigen::Vector2d& p : hull) {
+    fit.outline.emplace_back(fit.centroid + p.x() * fit.axis_u + p.y() * fit.axis_v);
+  }
+  const RectangleSides sides = smallest_bounding_rectangle(hull);
   fit.extent = sides.longer;
   fit.width = sides.shorter;
 }
 
 }  // namespace
 
-PlaneFit fit_plane(const PointCloud& cloud) {
+PlaneFit fit_plane(const PointCloud& cloud,
+                   const std::vector<std::size_t>& indices,
+                   const PlaneFitOptions& options) {
   cloud.check();
-  const Moments m = moments_of(cloud);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m.scatter);
-  const Eigen::Vector3d& spread = solver.eigenvalues();
-  require(spread(1) > 1e-10 * spread(2),
-          "the ",
-          m.count,
-          " points lie on one line or in one spot, so they decide no plane; add points beside it");
-
+  const Samples samples = samples_of(cloud, indices);
   PlaneFit fit;
-  fit.points = m.count;
-  fit.centroid = m.centroid;
-  fit.plane.normal = solver.eigenvectors().col(0).normalized();
-  fit.plane.distance = fit.plane.normal.dot(m.centroid);
-  if (fit.plane.distance < 0) fit.plane = {-fit.plane.normal, -fit.plane.distance};
-  describe_distances(cloud, fit);
-  describe_extent(cloud, solver.eigenvectors().col(2), fit);
-  fit.mean_range = m.mean_range;
-  fit.system_error = m.mean_range > 0 ? 4 * fit.rms / m.mean_range : 0;
-  // To first order the normal tilts along a principal axis by sum(s d) / sum(s^2), s the position
-  // along it and d the noise: variance rms^2 / eigenvalue, worst along the shorter axis.
-  fit.normal_sigma = fit.rms / std::sqrt(spread(1));
-  fit.distance_sigma = fit.rms / std::sqrt(static_cast<double>(m.count));
+  std::vector<double> weight;
+  fit_axes(samples, weight, fit);
+  if (options.weigh_by_sigma && !samples.sigma.empty()) {
+    for (int round = 0; round < kWeightingRounds; ++round) {
+      weight = weights_along(samples, fit.plane.normal);
+      fit_axes(samples, weight, fit);
+    }
+  }
+  describe_distances(samples, fit);
+  describe_uncertainty(samples, weight, fit);
+  describe_extent(samples, fit);
   return fit;
+}
+
+PlaneFit fit_plane(const PointCloud& cloud, const PlaneFitOptions& options) {
+  std::vector<std::size_t> all(cloud.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return fit_plane(cloud, all, options);
+}
+
+Eigen::Matrix3d PlaneFit::covariance_at(const Eigen::Vector3d& x) const {
+  // Tilting the normal by (a, b) moves the plane at the foot of x by -(a u + b v) along it.
+  Eigen::Matrix3d move = Eigen::Matrix3d::Identity();
+  move(2, 0) = -(x - centroid).dot(axis_u);
+  move(2, 1) = -(x - centroid).dot(axis_v);
+  return move * covariance * move.transpose();
+}
+
+double PlaneFit::sigma_at(const Eigen::Vector3d& x) const {
+  return std::sqrt(std::max(0.0, covariance_at(x)(2, 2)));
 }
 
 double angle_between(const Plane& a, const Plane& b) {
