@@ -10,7 +10,7 @@ build=$(realpath "$2")
 mkdir -p "$build/tidy"
 
 # One key for what all files share.
-shared=$( (clang-tidy --version; cat "$root/.clang-tidy" "$root"/*/.clang-tidy 2>/dev/null) | sha256sum)
+shared=$( (clang-tidy --version; find "$root" -maxdepth 2 -name .clang-tidy | sort | xargs cat) | sha256sum)
 
 # What every file of the project includes from it, straight: "file<tab>header", from the root.
 (cd "$root" && find . -name build -prune -o \( -name '*.hpp' -o -name '*.cpp' \) -print0 |
