@@ -36,6 +36,7 @@ TriangleMesh mesh_grid(const PolarScan& scan, const GridMeshOptions& options = {
 /// Distance from every point to the nearest point of the mesh's surface [m]; NaN for points that
 /// are not finite. Throws Error when the mesh has no surface.
 std::vector<double> distances_to_mesh(const std::vector<Eigen::Vector3f>& points,
-                                      const TriangleMesh& mesh);
+                                      const TriangleMesh& mesh,
+                                      int num_threads = 0);
 
 }  // namespace facula
