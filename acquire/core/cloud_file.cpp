@@ -5,19 +5,25 @@
 #include <facula/acquire/core/pcd_table.hpp>
 #include <facula/acquire/core/ply_table.hpp>
 #include <facula/acquire/core/point_text.hpp>
+#include <facula/acquire/core/range_grid.hpp>
 #include <facula/acquire/core/whole_file.hpp>
 
 namespace facula {
 namespace {
 
-PointCloud read_ply_cloud(const std::filesystem::path& path) {
-  const std::vector<PlyElement> elements = read_ply(path);
+PointCloud read_ply_cloud(const std::filesystem::path& path, ScanGrid* grid) {
+  std::vector<std::string> infos;
+  const std::vector<PlyElement> elements = read_ply(path, &infos);
   const PlyElement& vertices = ply_element(elements, "vertex", path);
   const auto find = [&](const std::string& name) -> const NumberColumn* {
     const PlyProperty* property = vertices.find(name);
     return property == nullptr || property->count_type ? nullptr : property;
   };
-  return cloud_from_columns(find, path);
+  PointCloud cloud = cloud_from_columns(find, path);
+  if (grid == nullptr) return cloud;
+  *grid = range_grid(elements, infos, path);
+  if (!grid->empty() && cloud.sensor_origin.empty()) cloud.sensor_origin = seen_from(cloud, *grid);
+  return cloud;
 }
 
 PointCloud read_pcd_cloud(const std::filesystem::path& path) {
@@ -25,9 +31,9 @@ PointCloud read_pcd_cloud(const std::filesystem::path& path) {
   return cloud_from_columns([&](const std::string& name) { return table.find(name); }, path);
 }
 
-PointCloud read_by_extension(const std::filesystem::path& path) {
+PointCloud read_by_extension(const std::filesystem::path& path, ScanGrid* grid) {
   const std::string extension = lower_extension(path);
-  if (extension == ".ply") return read_ply_cloud(path);
+  if (extension == ".ply") return read_ply_cloud(path, grid);
   if (extension == ".pcd") return read_pcd_cloud(path);
   if (extension == ".asc") return read_point_text(path, 2);
   if (extension == ".xyz" || extension == ".txt" || extension == ".csv") {
@@ -55,8 +61,9 @@ void write_pcd_cloud(const std::filesystem::path& path, const PointCloud& cloud)
 
 }  // namespace
 
-PointCloud read_cloud(const std::filesystem::path& path) {
-  PointCloud cloud = read_by_extension(path);
+PointCloud read_cloud(const std::filesystem::path& path, ScanGrid* grid) {
+  if (grid != nullptr) *grid = {};
+  PointCloud cloud = read_by_extension(path, grid);
   require(!cloud.empty(), "'", path.string(), "' holds no valid points; choose another file");
   return cloud;
 }

@@ -116,8 +116,10 @@ PlyHeader take_ply_header(std::string_view& text, const std::string& file) {
               file,
               "' declares a property before any element; write the file again");
       header.elements.back().properties.push_back(property_of(line, file));
+    } else if (keyword == "obj_info") {
+      header.infos.emplace_back(line);
     } else {
-      require(keyword.empty() || keyword == "comment" || keyword == "obj_info",
+      require(keyword.empty() || keyword == "comment",
               "the PLY header of '",
               file,
               "' has a line that starts with '",

@@ -15,6 +15,7 @@ enum class PlyEncoding : std::uint8_t { kAscii, kLittleEndian, kBigEndian };
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kAscii;
   std::vector<PlyElement> elements;
+  std::vector<std::string> infos;  ///< what follows `obj_info`, a line each
 };
 
 /// Takes the header off the front of `text`. Throws Error naming `file` when it is not one.

@@ -123,7 +123,8 @@ const PlyProperty* PlyElement::find(const std::string& property) const {
   return nullptr;
 }
 
-std::vector<PlyElement> read_ply(const std::filesystem::path& path) {
+std::vector<PlyElement> read_ply(const std::filesystem::path& path,
+                                 std::vector<std::string>* infos) {
   const std::string file = path.string();
   const std::string bytes = read_whole_file(path);
   std::string_view rest = bytes;
@@ -134,6 +135,7 @@ std::vector<PlyElement> read_ply(const std::filesystem::path& path) {
           "'",
           file,
           "' holds more values than its PLY header declares; correct the counts in the header");
+  if (infos != nullptr) *infos = std::move(header.infos);
   return std::move(header.elements);
 }
 

@@ -29,8 +29,10 @@ struct PlyElement {
 
 /// Reads every element of a PLY file (Turk 1994: ascii, binary of either byte order, lists; lines
 /// may end in \r\n). Throws Error when the file is no PLY file or holds fewer or more values than
-/// its header says.
-std::vector<PlyElement> read_ply(const std::filesystem::path& path);
+/// its header says. `infos`, when given, receives what follows `obj_info` in the header, line by
+/// line.
+std::vector<PlyElement> read_ply(const std::filesystem::path& path,
+                                 std::vector<std::string>* infos = nullptr);
 
 /// The element of that name; throws Error naming the file when it is missing.
 const PlyElement& ply_element(const std::vector<PlyElement>& elements,

@@ -4,6 +4,7 @@
 #include <facula/acquire/core/scan_file.hpp>
 #include <facula/acquire/core/scan_header.hpp>
 #include <facula/acquire/core/whole_file.hpp>
+#include <facula/reconstruct/filter/grid_normals.hpp>
 #include <facula/reconstruct/register/compressed_file.hpp>
 #include <facula/reconstruct/register/scan_project_formats.hpp>
 
@@ -28,6 +29,12 @@ void read_pcd_scan(const std::filesystem::path& path, PosedCloud& scan) {
   }
 }
 
+/// A range image whose lines of sight are known tells its normals.
+void orient_grid(PosedCloud& scan) {
+  if (scan.grid.empty() || scan.cloud.sensor_origin.empty() || !scan.cloud.normals.empty()) return;
+  scan.cloud.normals = grid_normals(scan.cloud, scan.grid);
+}
+
 }  // namespace
 
 PosedCloud read_scan_file(const std::filesystem::path& path) {
@@ -38,7 +45,8 @@ PosedCloud read_scan_file(const std::filesystem::path& path) {
   if (lower_extension(file.path()) == ".pcd") {
     read_pcd_scan(file.path(), scan);
   } else {
-    scan.cloud = read_cloud(file.path());
+    scan.cloud = read_cloud(file.path(), &scan.grid);
+    orient_grid(scan);
   }
   if (scan.cloud.sensor_origin.empty()) {
     scan.cloud.sensor_origin.assign(scan.cloud.size(), Eigen::Vector3f::Zero());

@@ -48,8 +48,9 @@ RigidTransform parse_pose(std::string_view rest, const Place& place) {
   return {scan_from_world.normalized().conjugate(), {n[0], n[1], n[2]}};
 }
 
-/// The range scanner looked along -z of every scan (its stripe moves along x), from far away
-/// compared with the object: an origin 1 m in front of the points gives every point its free side.
+/// A scan without its range grid: the scanner looked along -z of every scan (its stripe moves along
+/// x), from far away compared with the object, so an origin 1 m in front of the points gives every
+/// point its free side.
 void set_sensor_in_front(PointCloud& cloud) {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3f& p : cloud.points) centroid += p.cast<double>();
@@ -70,7 +71,7 @@ ScanProject read_stanford_conf(const std::filesystem::path& path) {
     const std::string name(take_word(line));
     const RigidTransform pose = parse_pose(line, {path, line_number});
     PosedCloud scan = read_scan_file(packed_or_plain(path.parent_path() / name));
-    set_sensor_in_front(scan.cloud);
+    if (scan.grid.empty()) set_sensor_in_front(scan.cloud);
     scan.world_from_scan = pose;
     project.scans.push_back(std::move(scan));
   }
