@@ -31,6 +31,7 @@ struct PairOptions {
   int max_iterations = 100;           ///< over all levels [1], at least 1
   double rotation_epsilon = 1e-6;     ///< converged when a step turns less [rad]
   double translation_epsilon = 1e-7;  ///< and moves less [m]
+  double significance = 0.02;         ///< or when a step is this much of the pose's own sigma [1]
   double max_normal_angle = 0.8;      ///< between the two normals of a correspondence [rad]
   int coarsest_level = 8;  ///< start here, or at the last level there is [1]; 0 = finest only
   int num_threads = 0;     ///< 0 = all cores [1]
