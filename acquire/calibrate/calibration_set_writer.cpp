@@ -2,8 +2,8 @@
 #include <facula/acquire/calibrate/calibration_set_file.hpp>
 #include <facula/acquire/core/atomic_file.hpp>
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/toml_text.hpp>
 
-#include <iomanip>
 #include <locale>
 #include <numbers>
 
@@ -103,7 +103,7 @@ void write_calibration_set(const std::filesystem::path& folder, const Calibratio
        << "\"\nimage_width_px = " << set.views.front().points.image_width
        << "\nimage_height_px = " << set.views.front().points.image_height << "\nlasers = [";
   for (const std::string& laser : set.lasers) {
-    toml << (&laser == set.lasers.data() ? "" : ", ") << std::quoted(laser);
+    toml << (&laser == set.lasers.data() ? "" : ", ") << toml_quoted(laser);
   }
   toml << "]\n";
   for (const Board& board : set.boards) write_board(board, toml);

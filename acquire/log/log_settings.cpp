@@ -2,12 +2,12 @@
 #include <facula/acquire/capture/frame_list.hpp>
 #include <facula/acquire/capture/stripe_settings.hpp>
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/toml_text.hpp>
 #include <facula/acquire/core/whole_file.hpp>
 #include <facula/acquire/log/log_settings.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
 #include <facula/acquire/stripe/stripe_windows.hpp>
 
-#include <iomanip>
 #include <locale>
 #include <sstream>
 
@@ -43,8 +43,8 @@ std::string settings_text(const Capture& capture) {
   out.imbue(std::locale::classic());
   out.precision(17);
   const Rig& rig = capture.rig;
-  out << "rig_name = " << std::quoted(rig.name)
-      << "\nlaser = " << std::quoted(rig.lasers.empty() ? "" : rig.lasers[capture.laser].name)
+  out << "rig_name = " << toml_quoted(rig.name)
+      << "\nlaser = " << toml_quoted(rig.lasers.empty() ? "" : rig.lasers[capture.laser].name)
       << "\ninterval_s = " << capture.frame_interval << "\n";
   write_exposures(out, capture.exposures);
   out << "\n";

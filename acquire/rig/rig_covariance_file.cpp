@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/toml_text.hpp>
 #include <facula/acquire/rig/rig_covariance_file.hpp>
 
-#include <iomanip>
 #include <ostream>
 
 namespace facula {
@@ -39,7 +39,7 @@ RigCovariance read_covariance(TomlTable table) {
 
 void write_covariance(std::ostream& out, const RigCovariance& covariance) {
   out << "\n[covariance]  # of the calibration, in the units of the names\nparameters = [\n";
-  for (const std::string& name : covariance.parameters) out << "  " << std::quoted(name) << ",\n";
+  for (const std::string& name : covariance.parameters) out << "  " << toml_quoted(name) << ",\n";
   out << "]\nrows = [\n";
   for (Eigen::Index r = 0; r < covariance.matrix.rows(); ++r) {
     out << "  [";

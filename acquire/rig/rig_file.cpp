@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/atomic_file.hpp>
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/toml_text.hpp>
 #include <facula/acquire/rig/rig_covariance_file.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
 #include <facula/acquire/rig/simple_calibrations_file.hpp>
 #include <facula/acquire/rig/toml_table.hpp>
 
 #include <cmath>
-#include <iomanip>
 #include <locale>
 #include <numbers>
 #include <sstream>
@@ -113,14 +113,14 @@ std::string rig_text(const Rig& rig, RigParts needed) {
   out.imbue(std::locale::classic());
   out.precision(17);
   const Camera& c = rig.camera;
-  out << "name = " << std::quoted(rig.name) << "\n"
+  out << "name = " << toml_quoted(rig.name) << "\n"
       << "stripe = \"" << (rig.stripe_direction == StripeDirection::kPerRow ? "upright" : "level")
       << "\"\n\n"
       << "[camera]\nwidth_px = " << c.width << "\nheight_px = " << c.height << "\nfx_px = " << c.fx
       << "\nfy_px = " << c.fy << "\ncx_px = " << c.cx << "\ncy_px = " << c.cy << "\nk1 = " << c.k1
       << "\nk2 = " << c.k2 << "\np1 = " << c.p1 << "\np2 = " << c.p2 << "\nk3 = " << c.k3 << "\n";
   for (const LaserPlane& laser : rig.lasers) {
-    out << "\n[[laser]]\nname = " << std::quoted(laser.name) << "\n";
+    out << "\n[[laser]]\nname = " << toml_quoted(laser.name) << "\n";
     write_vector(out, "normal", laser.normal);
     out << "distance_mm = " << laser.distance * 1000 << "\n";
     if (laser.bow != 0) out << "bow_deg = " << laser.bow * 180 / std::numbers::pi << "\n";

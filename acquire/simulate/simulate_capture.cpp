@@ -6,6 +6,7 @@
 #include <facula/acquire/core/median.hpp>
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/acquire/core/scan_file.hpp>
+#include <facula/acquire/core/toml_text.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
 #include <facula/acquire/simulate/axis_errors.hpp>
 #include <facula/acquire/simulate/frame_renderer.hpp>
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iomanip>
 #include <locale>
 #include <mutex>
 #include <string>
@@ -92,7 +92,7 @@ void write_capture(const std::filesystem::path& folder,
   out.precision(17);
   const Eigen::Vector3d t = world_from_scan.translation * 1000;
   const Eigen::Quaterniond& q = world_from_scan.rotation;
-  out << "rig = \"rig.toml\"\nlaser = " << std::quoted(laser_name) << "\n\n[frames]\non = \""
+  out << "rig = \"rig.toml\"\nlaser = " << toml_quoted(laser_name) << "\n\n[frames]\non = \""
       << kLit << "/*.png\"\n";
   if (options.background_frames) out << "off = \"" << kDark << "/*.png\"\n";
   out << "\n[positions]\ncsv = \"positions.csv\"\n"

@@ -3,6 +3,7 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/nearest_name.hpp>
 #include <facula/acquire/core/text_numbers.hpp>
+#include <facula/acquire/core/toml_text.hpp>
 #include <facula/acquire/core/whole_file.hpp>
 #include <facula/reconstruct/register/compressed_file.hpp>
 #include <facula/reconstruct/register/scan_project_formats.hpp>
@@ -111,21 +112,6 @@ PosedCloud read_scan_entry(const toml::table& table, const fs::path& path, std::
   return scan;
 }
 
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    constexpr char kHex[] = "0123456789abcdef";
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) {
-      result += std::string("\\u00") + kHex[byte >> 4] + kHex[byte & 15];
-    } else {
-      if (c == '"' || c == '\\') result += '\\';
-      result += c;
-    }
-  }
-  return result + '"';
-}
-
 /// A TOML float needs a point or an exponent.
 std::string toml_number(double value) {
   const std::string text = number_text(value);
@@ -173,8 +159,8 @@ void write_poses(const fs::path& path, const ScanProject& project) {
   file.stream() << "# x_in_world = R(quaternion) x_in_scan + translation\n";
   for (const PosedCloud& scan : project.scans) {
     const RigidTransform& pose = scan.world_from_scan;
-    file.stream() << "\n[[scan]]\nname = " << quoted(scan.name)
-                  << "\nfile = " << quoted(relative_name(scan.file, path.parent_path()))
+    file.stream() << "\n[[scan]]\nname = " << toml_quoted(scan.name)
+                  << "\nfile = " << toml_quoted(relative_name(scan.file, path.parent_path()))
                   << "\ntranslation_mm = " << toml_list(Eigen::Vector3d(pose.translation * 1000))
                   << "\nquaternion_xyzw = " << toml_list(pose.rotation.coeffs()) << '\n';
   }

@@ -55,7 +55,7 @@ TEST(RigFile, WritesWhatItReads) {
   for (const char* set :
        {"caltag_turntable_pot", "printerbed_1mm_stairs", "ciclop_bust_and_pattern"}) {
     Rig rig = read_rig(shipped_data("captures") / set / "rig.toml");
-    rig.name = "a \"quoted\" name";
+    rig.name = "a \"quoted\"\nname \\ of two lines";
     write_rig(folder / "copy.toml", rig);
     const Rig copy = read_rig(folder / "copy.toml");
     EXPECT_EQ(copy.name, rig.name);
