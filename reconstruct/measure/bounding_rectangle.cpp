@@ -46,6 +46,20 @@ double polygon_area(const std::vector<Eigen::Vector2d>& corners) {
   return twice / 2;
 }
 
+double smallest_width(const std::vector<Eigen::Vector2d>& hull) {
+  if (hull.size() < 3) return 0;
+  double least = INFINITY;
+  // One of the lines lies along an edge of the polygon (Houle and Toussaint 1988).
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d& from = hull[i];
+    const Eigen::Vector2d& to = hull[(i + 1) % hull.size()];
+    double most = 0;
+    for (const Eigen::Vector2d& p : hull) most = std::max(most, turn(from, to, p));
+    least = std::min(least, most / (to - from).norm());
+  }
+  return least;
+}
+
 RectangleSides smallest_bounding_rectangle(std::vector<Eigen::Vector2d> points) {
   if (points.empty()) return {};
   const std::vector<Eigen::Vector2d> hull = convex_hull(std::move(points));

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <facula/reconstruct/measure/plane.hpp>
+
+#include <Eigen/Core>
+
+namespace facula {
+
+/// A value and its standard uncertainty (GUM), in the same unit.
+struct Measured {
+  double value = 0;
+  double sigma = 0;
+};
+
+struct RelationOptions {
+  /// Standard uncertainty of a range error that all points of both planes share [m], 0 or more. A
+  /// point's sigma tells nothing of it: a zero point that is off lengthens every range alike. It
+  /// cancels in steps and counts twice between walls that face each other.
+  double shared_range_sigma = 0;
+
+  void check() const;
+};
+
+/// Angle between two planes [rad], in [0, pi/2]. To first order in the covariances of both (GUM,
+/// 5.1.2), which are taken as independent. Below three standard deviations nobody knows which way
+/// the planes open, so sigma then holds both ways.
+Measured measured_angle(const PlaneFit& a, const PlaneFit& b, const RelationOptions& options = {});
+
+/// Distance of b's centroid from plane a [m], unsigned: the distance of parallel planes, a step's
+/// height. Its sigma grows with the tilt of a where b lies beside a's points.
+Measured measured_distance(const PlaneFit& a,
+                           const PlaneFit& b,
+                           const RelationOptions& options = {});
+
+/// Angle between a plane's normal and a direction that is known exactly, such as gravity [rad], in
+/// [0, pi/2]: 0 for a level plane, pi/2 for an upright one. `direction` of any length above 0.
+Measured measured_angle_to(const PlaneFit& fit,
+                           const Eigen::Vector3d& direction,
+                           const RelationOptions& options = {});
+
+}  // namespace facula
