@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what Facula needs on Debian 12 and is not there yet. Running it again does nothing.
-# With --check it only lists what is missing (exit status 1 when something is).
+# With --check it only lists what is missing (exit status 1 when something is). With --peers it
+# installs what the benchmarks compare with instead; neither build nor tests need that.
 set -euo pipefail
 
 packages=(
@@ -17,10 +18,15 @@ packages=(
   libgtest-dev libbenchmark-dev
 )
 
+# Open3D, through its Python.
+peers=(python3-open3d)
+
 fail() {
   echo "setup: $*" >&2
   exit 1
 }
+
+[[ ${1:-} != --peers ]] || packages=("${peers[@]}")
 
 missing_packages() {
   local package

@@ -141,17 +141,29 @@ double median_ratio(const Contender& a, const Contender& b) {
   return median_of(ratios);
 }
 
-void print(const Size& size, const std::vector<Contender>& all, bool json) {
+enum class Form : std::uint8_t { kText, kMarkdown, kJson };
+
+const char* line_format(Form form) {
+  switch (form) {
+    case Form::kMarkdown:
+      return "| %s | %d x %d | %.1f us | %.3g Gpx/s | %.3g | %.3g |\n";
+    case Form::kJson:
+      return "{\"name\": \"%s\", \"cols\": %d, \"rows\": %d, \"us_per_frame\": %.3f, "
+             "\"gpx_per_s\": %.3f, \"rate_of_plain_read\": %.4f, \"times_opencv_chain\": %.2f}\n";
+    case Form::kText:
+      break;
+  }
+  return "%-14s %4d x %4d  %9.2f us  %7.2f Gpx/s  %6.3f of plain read  %6.1f times the OpenCV "
+         "chain\n";
+}
+
+void print(const Size& size, const std::vector<Contender>& all, Form form) {
   for (const Contender& c : all) {
     const double seconds = median_of(c.seconds);
     const double pixels = static_cast<double>(size.cols) * size.rows;
     const double of_read = median_ratio(all.front(), c);
     const double over_chain = median_ratio(all.back(), c);
-    std::printf(json ? "{\"name\": \"%s\", \"cols\": %d, \"rows\": %d, \"us_per_frame\": %.3f, "
-                       "\"gpx_per_s\": %.3f, \"rate_of_plain_read\": %.4f, "
-                       "\"times_opencv_chain\": %.2f}\n"
-                     : "%-14s %4d x %4d  %9.2f us  %7.2f Gpx/s  %6.3f of plain read  %6.1f times "
-                       "the OpenCV chain\n",
+    std::printf(line_format(form),
                 c.name.c_str(),
                 size.cols,
                 size.rows,
@@ -163,8 +175,12 @@ void print(const Size& size, const std::vector<Contender>& all, bool json) {
   std::fflush(stdout);
 }
 
-int run(int rounds, bool json) {
+int run(int rounds, Form form) {
   filter_chain_on_one_thread();
+  if (form == Form::kMarkdown) {
+    std::printf("| | frame | time | rate | of the plain read | times the OpenCV chain |\n");
+    std::printf("|---|---|---|---|---|---|\n");
+  }
   for (const Size& size : kSizes) {
     const Frames frames = frames_of(size);
     std::vector<Contender> all = contenders(frames);
@@ -174,7 +190,7 @@ int run(int rounds, bool json) {
         if (round > 0 || rounds == 1) c.seconds.push_back(seconds);  // the first warms up
       }
     }
-    print(size, all, json);
+    print(size, all, form);
   }
   if (unseen == 0) return 0;
   std::fprintf(stderr, "%zu rows were not seen: the figures would mean little\n", unseen);
@@ -186,19 +202,21 @@ int run(int rounds, bool json) {
 
 int main(int argc, char** argv) {
   int rounds = 200;
-  bool json = false;
+  facula::Form form = facula::Form::kText;
   for (int i = 1; i < argc; ++i) {
     const char* end = argv[i] + std::strlen(argv[i]);
     if (std::strcmp(argv[i], "--json") == 0) {
-      json = true;
+      form = facula::Form::kJson;
+    } else if (std::strcmp(argv[i], "--markdown") == 0) {
+      form = facula::Form::kMarkdown;
     } else if (std::strcmp(argv[i], "--rounds") == 0 && i + 1 < argc) {
       const char* text = argv[++i];
       end = text + std::strlen(text);
       if (std::from_chars(text, end, rounds).ptr != end || rounds < 1) return 2;
     } else {
-      std::fprintf(stderr, "usage: stripe_speed [--rounds N] [--json]\n");
+      std::fprintf(stderr, "usage: stripe_speed [--rounds N] [--json | --markdown]\n");
       return 2;
     }
   }
-  return facula::run(rounds, json);
+  return facula::run(rounds, form);
 }

@@ -1,0 +1,41 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# benchmarks.sh [FILE.md]: sets up, builds, and measures every table of BENCHMARKS.md (or FILE.md)
+# anew. What stands between a line `<!-- measured: COMMAND -->` and the next `<!-- end -->` is replaced
+# by what COMMAND prints, run from the root of the project; all other text stays. The file is replaced
+# once every command has succeeded. FACULA_BENCH_ONLY=WORD measures only the commands that hold WORD.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+page=$(realpath "${1:-$root/BENCHMARKS.md}")
+only=${FACULA_BENCH_ONLY:-}
+cd "$root"
+if [[ -z ${FACULA_BENCH_BUILT:-} ]]; then
+  apps/setup.sh
+  apps/setup.sh --peers
+  cmake --preset release
+  cmake --build --preset release
+fi
+
+fresh=$(mktemp "$page.XXXXXX")
+trap 'rm -f "$fresh"' EXIT
+inside=
+while IFS= read -r line || [[ -n $line ]]; do
+  if [[ $line == '<!-- end -->' ]]; then
+    [[ -n $inside ]] || { echo "$page: an end without a beginning" >&2; exit 1; }
+    inside=
+  fi
+  [[ -n $inside ]] || printf '%s\n' "$line" >>"$fresh"
+  if [[ $line =~ ^'<!-- measured: '(.*)' -->'$ ]]; then
+    command=${BASH_REMATCH[1]}
+    [[ -z $inside ]] || { echo "$page: '$command' begins before the end of the last" >&2; exit 1; }
+    [[ $command == *"$only"* ]] || continue
+    inside=$command
+    echo "measuring: $command" >&2
+    bash -c "set -euo pipefail; $command" </dev/null >>"$fresh"
+  fi
+done <"$page"
+[[ -z $inside ]] || { echo "$page: '$inside' has no end" >&2; exit 1; }
+chmod --reference="$page" "$fresh"
+mv "$fresh" "$page"
+trap - EXIT
+echo "written: $page" >&2
