@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
-#include <facula/reconstruct/filter/sampling_distance.hpp>
+#include <facula/reconstruct/mesh/mesh_engines.hpp>
 #include <facula/reconstruct/mesh/meshing.hpp>
 #include <facula/reconstruct/mesh/orient_mesh.hpp>
 
@@ -10,7 +10,6 @@
 
 #include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <Eigen/Eigenvalues>
 
 namespace facula {
 namespace {
@@ -39,24 +38,6 @@ class EdgeBound {
   double squared_;
 };
 
-/// CGAL prints and gives up where the points span no plane.
-void require_wide(const std::vector<Eigen::Vector3f>& points) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& p : points) sum += p.cast<double>();
-  const Eigen::Vector3d centroid = sum / static_cast<double>(points.size());
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3f& p : points) {
-    const Eigen::Vector3d d = p.cast<double>() - centroid;
-    scatter += d * d.transpose();
-  }
-  const Eigen::Vector3d spread =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
-  require(spread(1) > 1e-12 * spread(2),
-          "the ",
-          points.size(),
-          " points lie on one line or in one spot, so they hold no surface");
-}
-
 /// The mesh of the facets, with only those points that a facet uses.
 TriangleMesh mesh_of(const PointCloud& cloud,
                      const std::vector<Facet>& facets,
@@ -80,12 +61,6 @@ TriangleMesh mesh_of(const PointCloud& cloud,
     mesh.triangles.push_back(triangle);
   }
   return mesh;
-}
-
-/// Long enough to reach over a few missing points and from stripe to stripe.
-double longest_edge(const PointCloud& cloud) {
-  const SamplingDistance distance = sampling_distance(cloud);
-  return std::max(6 * distance.nearest, 3 * distance.across);
 }
 
 /// Where the outside lies at every vertex, as far as the cloud tells.
@@ -114,21 +89,11 @@ void AdvancingFrontOptions::check() const {
 
 TriangleMesh mesh_advancing_front(const PointCloud& cloud, const AdvancingFrontOptions& options) {
   options.check();
-  cloud.check();
+  const PointCloud input = surface_points(cloud);
   std::vector<Kernel::Point_3> points;
-  std::vector<std::size_t> finite;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3f& p = cloud.points[i];
-    if (p.allFinite()) finite.push_back(i);
-  }
-  require(finite.size() >= 4,
-          "a surface needs at least 4 points, the cloud has ",
-          finite.size(),
-          " that are finite");
-  const PointCloud input = selected(cloud, finite);
+  points.reserve(input.size());
   for (const Eigen::Vector3f& p : input.points) points.emplace_back(p.x(), p.y(), p.z());
-  require_wide(input.points);
-  const double longest = options.max_edge > 0 ? options.max_edge : longest_edge(input);
+  const double longest = options.max_edge > 0 ? options.max_edge : reaching_edge(input);
   std::vector<Facet> facets;
   CGAL::advancing_front_surface_reconstruction(points.begin(),
                                                points.end(),

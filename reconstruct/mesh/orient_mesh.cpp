@@ -1,47 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/reconstruct/mesh/mesh_pieces.hpp>
 #include <facula/reconstruct/mesh/orient_mesh.hpp>
 
 #include <algorithm>
-#include <map>
-#include <numeric>
-#include <utility>
+
+#include <Eigen/Geometry>
 
 namespace facula {
 namespace {
-
-/// Pieces as a forest whose root stands for the piece (Tarjan's union-find).
-class Pieces {
- public:
-  explicit Pieces(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[find(b)] = find(a); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
-/// Joins triangles that share an edge.
-Pieces pieces_of(const TriangleMesh& mesh) {
-  Pieces pieces(mesh.triangles.size());
-  std::vector<std::pair<std::pair<std::uint32_t, std::uint32_t>, std::size_t>> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      edges.push_back({std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]), t});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t e = 1; e < edges.size(); ++e) {
-    if (edges[e].first == edges[e - 1].first) pieces.join(edges[e - 1].second, edges[e].second);
-  }
-  return pieces;
-}
 
 /// How much the triangle speaks for its orientation: area times cosine, or volume.
 double vote(const TriangleMesh& mesh,
@@ -73,13 +40,13 @@ void orient_mesh(TriangleMesh& mesh, const std::vector<Eigen::Vector3f>& outward
   for (const Eigen::Vector3f& v : mesh.vertices) {
     centroid += v.cast<double>() / static_cast<double>(mesh.vertices.size());
   }
-  Pieces pieces = pieces_of(mesh);
-  std::vector<double> votes(mesh.triangles.size(), 0);
+  const MeshPieces pieces = mesh_pieces(mesh);
+  std::vector<double> votes(pieces.count, 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    votes[pieces.find(t)] += vote(mesh, mesh.triangles[t], outward, centroid);
+    votes[pieces.of_triangle[t]] += vote(mesh, mesh.triangles[t], outward, centroid);
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (votes[pieces.find(t)] < 0) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    if (votes[pieces.of_triangle[t]] < 0) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
   }
 }
 

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/error.hpp>
+#include <facula/reconstruct/mesh/mesh_cleaning.hpp>
+#include <facula/reconstruct/mesh/mesh_engines.hpp>
+#include <facula/reconstruct/mesh/mesh_pieces.hpp>
+#include <facula/reconstruct/mesh/orient_mesh.hpp>
+#include <facula/reconstruct/mesh/watertight.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include <Eigen/Geometry>
+
+namespace facula {
+namespace {
+
+double area_of(const TriangleMesh& mesh, const TriangleMesh::Triangle& t) {
+  const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>();
+  return (mesh.vertices[t[1]].cast<double>() - a)
+      .cross(mesh.vertices[t[2]].cast<double>() - a)
+      .norm();
+}
+
+/// Without pieces of less than `share` of the largest one's area.
+TriangleMesh without_crumbs(const TriangleMesh& mesh, double share, std::size_t& removed) {
+  const MeshPieces pieces = mesh_pieces(mesh);
+  std::vector<double> area(pieces.count, 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    area[pieces.of_triangle[t]] += area_of(mesh, mesh.triangles[t]);
+  }
+  const double least = area.empty() ? 0 : share * *std::max_element(area.begin(), area.end());
+  TriangleMesh rest = mesh;
+  rest.triangles.clear();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (area[pieces.of_triangle[t]] >= least) rest.triangles.push_back(mesh.triangles[t]);
+  }
+  for (const double a : area) removed += a < least ? 1 : 0;
+  return compacted(rest);
+}
+
+/// Takes away the triangles of the pairs and those within `rings` vertices of them.
+std::size_t cut_out(TriangleMesh& mesh,
+                    const std::vector<std::array<std::uint32_t, 2>>& pairs,
+                    int rings) {
+  std::vector<std::uint8_t> gone(mesh.triangles.size(), 0);
+  for (const auto& [a, b] : pairs) gone[a] = gone[b] = 1;
+  for (int ring = 0; ring < rings; ++ring) {
+    std::vector<std::uint8_t> near(mesh.vertices.size(), 0);
+    for (std::size_t t = 0; t < gone.size(); ++t) {
+      if (gone[t] == 0) continue;
+      for (const std::uint32_t v : mesh.triangles[t]) near[v] = 1;
+    }
+    for (std::size_t t = 0; t < gone.size(); ++t) {
+      for (const std::uint32_t v : mesh.triangles[t]) gone[t] |= near[v];
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < gone.size(); ++t) {
+    if (gone[t] == 0) mesh.triangles[kept++] = mesh.triangles[t];
+  }
+  const std::size_t removed = mesh.triangles.size() - kept;
+  mesh.triangles.resize(kept);
+  return removed;
+}
+
+TriangleMesh filled(const TriangleMesh& mesh,
+                    const WatertightOptions& o,
+                    WatertightResult& result) {
+  const TriangleMesh sound =
+      repaired(without_crumbs(repaired(mesh), o.least_piece, result.pieces_removed));
+  std::size_t holes = 0;
+  TriangleMesh closed = fill_holes(sound, std::numeric_limits<double>::infinity(), &holes);
+  result.holes_filled += holes;
+  return closed;
+}
+
+/// Fills every hole; where triangles cut each other, cuts wider and fills again.
+void close_by_filling(const TriangleMesh& mesh,
+                      const WatertightOptions& o,
+                      WatertightResult& result) {
+  result.mesh = filled(mesh, o, result);
+  for (int round = 0; round < o.rounds; ++round) {
+    const auto pairs = self_intersections(result.mesh, o.num_threads);
+    const auto flat = triangles_without_area(result.mesh);
+    const bool sound = std::find(flat.begin(), flat.end(), 1) == flat.end();
+    if (pairs.empty() && sound) return;
+    TriangleMesh open = result.mesh;
+    result.triangles_cut += cut_out(open, pairs, 1 + round);
+    if (open.empty()) return;
+    result.mesh = filled(open, o, result);
+  }
+}
+
+double mean_edge(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum += (mesh.vertices[t[i]] - mesh.vertices[t[(i + 1) % 3]]).norm();
+    }
+  }
+  return sum / static_cast<double>(3 * mesh.triangles.size());
+}
+
+std::string filling_sentence(const WatertightResult& result) {
+  std::ostringstream how;
+  how << result.holes_filled << " holes filled";
+  if (result.pieces_removed > 0) how << ", " << result.pieces_removed << " small pieces removed";
+  if (result.triangles_cut > 0) {
+    how << ", " << result.triangles_cut << " triangles replaced where some cut each other";
+  }
+  return how.str();
+}
+
+/// Closed and oriented so that it encloses a positive volume.
+MeshVerdict judged(TriangleMesh& mesh,
+                   const std::vector<Eigen::Vector3f>& points,
+                   const WatertightOptions& o) {
+  MeshVerdict verdict = judge_mesh(mesh, points, o.num_threads);
+  if (verdict.volume.value_or(0) >= 0) return verdict;
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  verdict.statistics.volume = -verdict.statistics.volume;
+  verdict.volume = verdict.statistics.volume;
+  return verdict;
+}
+
+}  // namespace
+
+void WatertightOptions::check() const {
+  require(least_piece >= 0 && least_piece <= 1, "least_piece is ", least_piece, "; give 0 to 1");
+  require(rounds >= 0, "rounds is ", rounds, "; give 0 or more");
+  require(wrap_alpha >= 0 && std::isfinite(wrap_alpha),
+          "wrap_alpha is ",
+          wrap_alpha,
+          " m; give 0 or more");
+}
+
+WatertightResult make_watertight(const TriangleMesh& mesh,
+                                 const std::vector<Eigen::Vector3f>& points,
+                                 const WatertightOptions& options) {
+  options.check();
+  mesh.check();
+  require(!mesh.empty(), "the mesh has no triangles; there is nothing to close");
+  WatertightResult result;
+  close_by_filling(mesh, options, result);
+  require(!result.mesh.empty(), "nothing is left of the mesh but triangles that cut each other");
+  result.verdict = judged(result.mesh, points, options);
+  result.how = filling_sentence(result);
+  if (result.verdict.watertight()) return result;
+  const std::string wrong = result.verdict.sentence();
+  require(options.allow_wrap,
+          "the mesh could not be made watertight: after ",
+          result.how,
+          " there remain: ",
+          wrong,
+          "; allow an alpha wrap, or smooth or remesh first");
+  const double alpha = options.wrap_alpha > 0 ? options.wrap_alpha : 3 * mean_edge(mesh);
+  result.mesh = wrap_mesh(result.mesh, {.alpha = alpha, .offset = 0});
+  result.wrapped = true;
+  result.verdict = judged(result.mesh, points, options);
+  result.how = "wrapped at " + std::to_string(1000 * alpha) + " mm, since filling left " + wrong;
+  require(result.verdict.watertight(),
+          "the mesh could not be made watertight: filling its holes left ",
+          wrong,
+          ", and wrapping it left ",
+          result.verdict.sentence());
+  return result;
+}
+
+}  // namespace facula
