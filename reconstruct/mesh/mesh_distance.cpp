@@ -30,9 +30,12 @@ std::vector<double> distances_to_mesh(const std::vector<Eigen::Vector3f>& points
   const TriangleTree tree(mesh);
   std::vector<double> distances(points.size(), std::numeric_limits<double>::quiet_NaN());
   const auto measure = [&](std::size_t begin, std::size_t end) {
+    std::uint32_t near = TriangleTree::kNoGuess;  // points often follow each other
     for (std::size_t i = begin; i < end; ++i) {
       if (!points[i].allFinite()) continue;
-      distances[i] = std::sqrt(tree.nearest(points[i].cast<double>()).squared_distance);
+      const auto [squared, triangle] = tree.nearest(points[i].cast<double>(), near);
+      distances[i] = std::sqrt(squared);
+      near = triangle;
     }
   };
   parallel_for(points.size(), measure, {num_threads, 512});

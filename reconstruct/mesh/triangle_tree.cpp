@@ -31,13 +31,21 @@ std::uint64_t morton_code(const Eigen::Vector3d& share) {
   return code;
 }
 
-double squared_distance_to_segment(const Eigen::Vector3d& p,
-                                   const Eigen::Vector3d& a,
-                                   const Eigen::Vector3d& b) {
-  const Eigen::Vector3d along = b - a;
+/// The height above a plane through `a`; the plane is left out where the triangle has no area.
+double squared_height(const Eigen::Vector3d& ab,
+                      const Eigen::Vector3d& ac,
+                      const Eigen::Vector3d& ap,
+                      double otherwise) {
+  const Eigen::Vector3d normal = ab.cross(ac);
+  const double area = normal.squaredNorm();
+  const double height = normal.dot(ap);
+  return area > 0 ? height * height / area : otherwise;
+}
+
+double to_segment(const Eigen::Vector3d& along, const Eigen::Vector3d& from_start) {
   const double length = along.squaredNorm();
-  const double share = length > 0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0;
-  return (a + share * along - p).squaredNorm();
+  const double share = length > 0 ? std::clamp(from_start.dot(along) / length, 0.0, 1.0) : 0;
+  return (share * along - from_start).squaredNorm();
 }
 
 }  // namespace
@@ -45,20 +53,27 @@ double squared_distance_to_segment(const Eigen::Vector3d& p,
 double squared_distance_to_triangle(const Eigen::Vector3d& point,
                                     const std::array<Eigen::Vector3f, 3>& corners) {
   const Eigen::Vector3d a = corners[0].cast<double>();
-  const Eigen::Vector3d b = corners[1].cast<double>();
-  const Eigen::Vector3d c = corners[2].cast<double>();
-  const Eigen::Vector3d normal = (b - a).cross(c - a);
-  const double area = normal.squaredNorm();
-  const auto left_of = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-    return normal.dot((to - from).cross(point - from)) >= 0;
-  };
-  if (area > 0 && left_of(a, b) && left_of(b, c) && left_of(c, a)) {
-    const double height = normal.dot(point - a);
-    return height * height / area;
-  }
-  return std::min({squared_distance_to_segment(point, a, b),
-                   squared_distance_to_segment(point, b, c),
-                   squared_distance_to_segment(point, c, a)});
+  const Eigen::Vector3d ab = corners[1].cast<double>() - a;
+  const Eigen::Vector3d ac = corners[2].cast<double>() - a;
+  const Eigen::Vector3d ap = point - a;
+  const double d1 = ab.dot(ap);
+  const double d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return ap.squaredNorm();
+  const Eigen::Vector3d bp = ap - ab;
+  const double d3 = ab.dot(bp);
+  const double d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return bp.squaredNorm();
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return to_segment(ab, ap);
+  const Eigen::Vector3d cp = ap - ac;
+  const double d5 = ab.dot(cp);
+  const double d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return cp.squaredNorm();
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return to_segment(ac, ap);
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 >= d3 && d5 >= d6) return to_segment(ac - ab, bp);
+  return squared_height(ab, ac, ap, std::min(to_segment(ab, ap), to_segment(ac, ap)));
 }
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) {
@@ -134,11 +149,14 @@ void TriangleTree::search_leaf(std::size_t leaf,
   }
 }
 
-TriangleTree::Nearest TriangleTree::nearest(const Eigen::Vector3d& point, double within) const {
+TriangleTree::Nearest TriangleTree::nearest(const Eigen::Vector3d& point,
+                                            std::uint32_t guess) const {
   Nearest best;
   if (order_.empty()) return best;
-  best.squared_distance = within;
-  bool found = false;
+  if (guess < corners_.size()) {
+    const double squared = squared_distance_to_triangle(point, corners_[guess]);
+    if (squared < best.squared_distance) best = {squared, guess};  // not where it is not finite
+  }
   std::array<std::pair<double, std::size_t>, 64> stack;
   std::size_t depth = 0;
   stack[depth++] = {squared_distance(boxes_[1], point), 1};
@@ -146,9 +164,7 @@ TriangleTree::Nearest TriangleTree::nearest(const Eigen::Vector3d& point, double
     const auto [squared, node] = stack[--depth];
     if (!(squared < best.squared_distance)) continue;
     if (node >= leaves_) {
-      const double before = best.squared_distance;
       search_leaf(node - leaves_, point, best);
-      found = found || best.squared_distance < before;
       continue;
     }
     const double left = squared_distance(boxes_[2 * node], point);
@@ -157,7 +173,7 @@ TriangleTree::Nearest TriangleTree::nearest(const Eigen::Vector3d& point, double
     stack[depth++] = {std::max(left, right), nearer ^ 1U};
     stack[depth++] = {std::min(left, right), nearer};
   }
-  return found ? best : Nearest{};
+  return best;
 }
 
 void TriangleTree::add_meeting(std::uint32_t triangle, std::vector<std::uint32_t>& found) const {
