@@ -30,10 +30,10 @@ std::vector<double> distances_to_mesh(const std::vector<Eigen::Vector3f>& points
   const TriangleTree tree(mesh);
   std::vector<double> distances(points.size(), std::numeric_limits<double>::quiet_NaN());
   const auto measure = [&](std::size_t begin, std::size_t end) {
-    std::uint32_t near = TriangleTree::kNoGuess;  // points often follow each other
+    std::uint32_t near = 0;  // points often follow each other
     for (std::size_t i = begin; i < end; ++i) {
       if (!points[i].allFinite()) continue;
-      const auto [squared, triangle] = tree.nearest(points[i].cast<double>(), near);
+      const auto [squared, triangle] = tree.nearest_from(points[i].cast<double>(), near);
       distances[i] = std::sqrt(squared);
       near = triangle;
     }

@@ -10,6 +10,7 @@ namespace facula {
 namespace {
 
 constexpr std::size_t kLeaf = 4;  ///< triangles in a leaf [1]
+constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
 /// Every third bit of a 21-bit number.
@@ -149,14 +150,25 @@ void TriangleTree::search_leaf(std::size_t leaf,
   }
 }
 
-TriangleTree::Nearest TriangleTree::nearest(const Eigen::Vector3d& point,
-                                            std::uint32_t guess) const {
+TriangleTree::Nearest TriangleTree::nearest(const Eigen::Vector3d& point, double within) const {
+  Nearest best{within, kNone};
+  descend(point, best);
+  return best.triangle == kNone ? Nearest{} : best;
+}
+
+TriangleTree::Nearest TriangleTree::nearest_from(const Eigen::Vector3d& point,
+                                                 std::uint32_t guess) const {
   Nearest best;
-  if (order_.empty()) return best;
   if (guess < corners_.size()) {
     const double squared = squared_distance_to_triangle(point, corners_[guess]);
     if (squared < best.squared_distance) best = {squared, guess};  // not where it is not finite
   }
+  descend(point, best);
+  return best;
+}
+
+void TriangleTree::descend(const Eigen::Vector3d& point, Nearest& best) const {
+  if (order_.empty()) return;
   std::array<std::pair<double, std::size_t>, 64> stack;
   std::size_t depth = 0;
   stack[depth++] = {squared_distance(boxes_[1], point), 1};
@@ -173,7 +185,6 @@ TriangleTree::Nearest TriangleTree::nearest(const Eigen::Vector3d& point,
     stack[depth++] = {std::max(left, right), nearer ^ 1U};
     stack[depth++] = {std::min(left, right), nearer};
   }
-  return best;
 }
 
 void TriangleTree::add_meeting(std::uint32_t triangle, std::vector<std::uint32_t>& found) const {

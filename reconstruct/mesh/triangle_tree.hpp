@@ -19,8 +19,6 @@ class TriangleTree {
   /// Triangles with a corner that is not finite are left out.
   explicit TriangleTree(const TriangleMesh& mesh);
 
-  static constexpr auto kNoGuess = std::numeric_limits<std::uint32_t>::max();
-
   bool empty() const { return order_.empty(); }
 
   struct Nearest {
@@ -28,9 +26,14 @@ class TriangleTree {
     std::uint32_t triangle = 0;                                         ///< of the mesh [1]
   };
 
-  /// The nearest triangle to a finite point. A `guess` that is near makes it faster, whichever it
-  /// is; infinitely far where there is no triangle.
-  Nearest nearest(const Eigen::Vector3d& point, std::uint32_t guess = kNoGuess) const;
+  /// The nearest triangle to a finite point closer than the squared distance `within` [m^2]; the
+  /// squared distance stays infinite where there is none.
+  Nearest nearest(const Eigen::Vector3d& point,
+                  double within = std::numeric_limits<double>::infinity()) const;
+
+  /// The nearest triangle to a finite point, whichever the guess is; faster where the guess is
+  /// near.
+  Nearest nearest_from(const Eigen::Vector3d& point, std::uint32_t guess) const;
 
   /// Adds to `found` the triangles of a higher number whose boxes meet that of `triangle`.
   void add_meeting(std::uint32_t triangle, std::vector<std::uint32_t>& found) const;
@@ -43,6 +46,7 @@ class TriangleTree {
 
   Box box_of(std::uint32_t triangle) const;
   double squared_distance(const Box& box, const Eigen::Vector3d& point) const;
+  void descend(const Eigen::Vector3d& point, Nearest& best) const;
   void search_leaf(std::size_t leaf, const Eigen::Vector3d& point, Nearest& best) const;
 
   std::vector<std::array<Eigen::Vector3f, 3>> corners_;  ///< per triangle of the mesh
