@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/csv_table.hpp>
 #include <facula/acquire/core/random.hpp>
-#include <facula/acquire/profile/profile_measures.hpp>
+#include <facula/acquire/profile/profile_bench.hpp>
 #include <facula/acquire/profile/profile_polynomial_fit.hpp>
 #include <facula/acquire/profile/sheet_projection_fit.hpp>
+#include <facula/reconstruct/measure/profile_measures.hpp>
 #include <facula/tests/support/matchers.hpp>
 #include <facula/tests/support/real_data.hpp>
 
@@ -195,31 +196,6 @@ TEST(ProfileBench, IsTheTriangleItStandsFor) {
   EXPECT_NE(error_of([] { ProfileBench{}.check(); }).find("above 0 mm"), std::string::npos);
 }
 
-/// Source D, table II: the side follows from the height; the paper multiplies by ratios of two
-/// digits.
-TEST(PolygonSide, IsThatOfTheRegularPolygonOfThisHeight) {
-  for (int sides = 3; sides <= 12; ++sides) {
-    double lowest = HUGE_VAL;
-    double highest = -HUGE_VAL;
-    const double turn = 2 * std::numbers::pi / sides;
-    for (int i = 0; i < sides; ++i) {  // a side below: corners half a step beside the lowest point
-      const double y = -std::cos((i + 0.5) * turn);
-      lowest = std::min(lowest, y);
-      highest = std::max(highest, y);
-    }
-    const double side = 2 * std::sin(0.5 * turn);
-    EXPECT_NEAR(polygon_side(sides, highest - lowest), side, 1e-12) << sides;
-  }
-  EXPECT_NEAR(polygon_ratio(5), 0.65, 0.005);
-  EXPECT_NEAR(polygon_ratio(6), 0.58, 0.005);
-  EXPECT_NEAR(polygon_ratio(8), 0.41, 0.005);
-  EXPECT_NEAR(polygon_side(5, 38.78), 25.20, 0.005);
-  EXPECT_NEAR(polygon_side(6, 38.96), 22.49, 0.005);  // printed 22.60 with the ratio 0.58
-  EXPECT_NEAR(polygon_side(8, 40.72), 16.87, 0.005);  // printed 16.70 with the ratio 0.41
-  EXPECT_NE(error_of([] { polygon_ratio(2); }).find("at least 3 sides"), std::string::npos);
-  EXPECT_NE(error_of([] { polygon_side(5, 0); }).find("above 0 mm"), std::string::npos);
-}
-
 /// The table's arithmetic: error is measured - actual.
 TEST(FloppyStack, ErrorColumnIsMeasuredMinusActual) {
   const CsvTable table = CsvTable::from_file(shipped_data("tables/floppy_stack.csv"));
@@ -255,19 +231,6 @@ TEST(MeasureStep, MeasuresAStackOfDisksToTenMicrometres) {
     EXPECT_LT(step.sigma, 2e-5);
   }
   EXPECT_LT(std::sqrt(squares), 2e-5);
-}
-
-TEST(MeasureStep, RefusesSpansWithoutPoints) {
-  std::vector<Eigen::Vector2d> profile(20, Eigen::Vector2d(kNan, kNan));
-  for (int i = 0; i < 10; ++i) profile[static_cast<std::size_t>(i)] = {0.001 * i, 0};
-  EXPECT_NE(error_of([&] {
-              measure_step(profile, {0, 10}, {10, 20});
-            }).find("on the top"),
-            std::string::npos);
-  EXPECT_NE(error_of([&] {
-              measure_step(profile, {0, 40}, {10, 20});
-            }).find("leave the profile"),
-            std::string::npos);
 }
 
 }  // namespace

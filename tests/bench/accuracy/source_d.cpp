@@ -2,10 +2,10 @@
 //
 // Source D: a laser from above, a camera at 45 degrees: thickness of a stack, sides of polygons
 // from their height, diameters of rods from a polynomial.
-#include <facula/acquire/profile/profile_measures.hpp>
 #include <facula/acquire/profile/profile_polynomial_fit.hpp>
 #include <facula/acquire/profile/sheet_projection_fit.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
+#include <facula/reconstruct/measure/profile_measures.hpp>
 #include <facula/tests/bench/accuracy/error_statistics.hpp>
 #include <facula/tests/bench/accuracy/exact_stripe.hpp>
 #include <facula/tests/bench/accuracy/studies.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/median.hpp>
-#include <facula/acquire/profile/profile_measures.hpp>
+#include <facula/reconstruct/measure/profile_measures.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +24,18 @@ Points points_of(const Points& profile, const ProfileSpan& span, const char* nam
           span.last,
           " leave the profile of ",
           profile.size());
-  Points points;
-  for (std::size_t i = span.first; i < span.last; ++i) {
-    if (profile[i].allFinite()) points.push_back(profile[i]);
+  const auto begin = profile.begin();
+  return {begin + static_cast<std::ptrdiff_t>(span.first),
+          begin + static_cast<std::ptrdiff_t>(span.last)};
+}
+
+Points seen_points(const Points& points, const char* name) {
+  Points seen;
+  for (const Eigen::Vector2d& p : points) {
+    if (p.allFinite()) seen.push_back(p);
   }
-  require(
-      points.size() >= 5, "expected at least 5 points seen on the ", name, ", got ", points.size());
-  return points;
+  require(seen.size() >= 5, "expected at least 5 points seen on the ", name, ", got ", seen.size());
+  return seen;
 }
 
 struct Line {
@@ -68,27 +73,6 @@ void drop_outliers(Points& points, const Line& line) {
 
 }  // namespace
 
-double ProfileBench::height(double shift) const {
-  const double secant = 1 / std::cos(angle);
-  return baseline * shift * secant * secant / (lens_to_sensor + shift * std::tan(angle));
-}
-
-double ProfileBench::shift(double height) const {
-  const double secant = 1 / std::cos(angle);
-  return height * lens_to_sensor / (baseline * secant * secant - height * std::tan(angle));
-}
-
-void ProfileBench::check() const {
-  require(baseline > 0 && lens_to_sensor > 0,
-          "expected baseline and lens-to-sensor distance above 0 mm, got ",
-          1000 * baseline,
-          " and ",
-          1000 * lens_to_sensor);
-  require(angle > 0 && angle < std::numbers::pi / 2,
-          "expected an angle of 0 to 90 degrees between baseline and optical axis, got ",
-          angle * 180 / std::numbers::pi);
-}
-
 double polygon_ratio(int sides) {
   require(sides >= 3, "expected a polygon of at least 3 sides, got ", sides);
   return sides % 2 == 0 ? std::tan(std::numbers::pi / sides)
@@ -100,11 +84,13 @@ double polygon_side(int sides, double height) {
   return height * polygon_ratio(sides);
 }
 
-StepMeasure measure_step(const std::vector<Eigen::Vector2d>& profile,
-                         const ProfileSpan& base,
-                         const ProfileSpan& top) {
-  Points below = points_of(profile, base, "base");
-  Points above = points_of(profile, top, "top");
+StepMeasure measure_step(const Points& profile, const ProfileSpan& base, const ProfileSpan& top) {
+  return measure_step(points_of(profile, base, "base"), points_of(profile, top, "top"));
+}
+
+StepMeasure measure_step(const Points& base, const Points& top) {
+  Points below = seen_points(base, "base");
+  Points above = seen_points(top, "top");
   drop_outliers(below, line_through(below));
   const Line line = line_through(below);
   drop_outliers(above, line);
