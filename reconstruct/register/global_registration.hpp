@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <facula/reconstruct/register/global_features.hpp>
 #include <facula/reconstruct/register/pair_registration.hpp>
+#include <facula/reconstruct/register/pose_score.hpp>
 
 #include <cstdint>
 #include <string>
@@ -30,13 +32,6 @@ struct GlobalOptions {
   void check() const;
 };
 
-/// How well a pose explains two scans, both ways.
-struct PoseScore {
-  double overlap = 0;     ///< share of points that lie on the other scan, normals agreeing [0..1]
-  double inlier_rms = 0;  ///< [m]
-  double contradiction = 0;  ///< share of points seen where the other scan looked through [0..1]
-};
-
 struct GlobalResult {
   Verdict verdict = Verdict::kRefused;
   std::string reason;  ///< one sentence for people, with the figures that decided
@@ -51,10 +46,9 @@ GlobalResult register_without_guess(const ScanPyramid& source,
                                     const ScanPyramid& target,
                                     const GlobalOptions& options = {});
 
-/// The judge alone.
-PoseScore score_pose(const ScanPyramid& source,
-                     const ScanPyramid& target,
-                     const RigidTransform& target_from_source,
-                     int num_threads = 0);
+/// The same for scans made ready once for many pairs, with features of one voxel.
+GlobalResult register_without_guess(const GlobalFeatures& source,
+                                    const GlobalFeatures& target,
+                                    const GlobalOptions& options = {});
 
 }  // namespace facula
