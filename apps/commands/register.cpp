@@ -3,11 +3,12 @@
 #include <facula/apps/cli/output_path.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
 #include <facula/apps/commands/register.hpp>
-#include <facula/reconstruct/register/register_project.hpp>
+#include <facula/apps/commands/register_figures.hpp>
+#include <facula/reconstruct/register/register_scans.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace facula {
 namespace {
@@ -15,84 +16,86 @@ namespace {
 struct RegisterArguments {
   std::vector<std::filesystem::path> scans;
   std::filesystem::path out;
-  RegisterOptions options;
+  std::string start = "auto";
+  std::string motion = "free";
+  RegisterScansOptions options;
 };
 
 void declare(Arguments& arguments, RegisterArguments& a) {
   arguments.inputs("SCANS",
                    a.scans,
                    "poses.toml, a Stanford .conf, a folder of 3DTK scans, or two and more scan "
-                   "files; the first scan stays where it is");
+                   "files, in any order");
   arguments.required();
-  arguments.output("--out", a.out, "the poses found (.toml), which names the scans");
+  arguments.output("--out", a.out, "the poses found (.toml), which names the scans; also -o");
   arguments.required();
-  arguments.number("--voxel-mm", a.options.voxel, kMillimetres, "clouds are thinned to this first");
-  arguments.number("--max-distance-mm",
-                   a.options.icp.max_distance,
+  arguments.choice("--start",
+                   a.start,
+                   {"auto", "given", "nothing"},
+                   "from the poses the files hold or from nothing; auto: from the poses where they "
+                   "differ");
+  arguments.choice("--motion",
+                   a.motion,
+                   {"free", "upright", "table"},
+                   "upright: heads that pan about a plumb axis; table: an object that turns or is "
+                   "moved on a table, and keeps its height");
+  arguments.vector(
+      "--axis", a.options.motion.axis, kPlainNumber, "of that motion, in the frame of every scan");
+  arguments.number("--voxel-mm",
+                   a.options.pyramid.finest_voxel,
                    kMillimetres,
-                   "farthest apart that two points of the same surface lie at the start");
-  arguments.whole("--max-iterations", a.options.icp.max_iterations, "of every registration");
+                   "scans are thinned to this first, 0 = by their own sampling");
+  arguments.number("--max-distance-mm",
+                   a.options.refinement.max_distance,
+                   kMillimetres,
+                   "how far surfaces lie apart by the poses given, 0 = by the voxel");
+  arguments.number("--min-overlap",
+                   a.options.min_overlap,
+                   kPlainNumber,
+                   "share that two scans must have in common to be registered with each other");
+  arguments.whole("--seed", a.options.global.seed, "of the search from nothing");
 }
 
-double worst_sigma(const Eigen::Matrix<double, 6, 6>& covariance, int first) {
-  const auto block = covariance.diagonal().segment<3>(first);
-  return std::sqrt(std::max(0.0, block.maxCoeff()));
+RegisterScansOptions options_of(const RegisterArguments& a, const Session& session) {
+  RegisterScansOptions options = a.options;
+  options.start = a.start == "given"     ? ScanStart::kGiven
+                  : a.start == "nothing" ? ScanStart::kNothing
+                                         : ScanStart::kAuto;
+  options.motion.kind = a.motion == "upright" ? ScanMotion::Kind::kUpright
+                        : a.motion == "table" ? ScanMotion::Kind::kTable
+                                              : ScanMotion::Kind::kFree;
+  options.num_threads = session.num_threads;
+  options.progress = session.progress("registering scans");
+  return options;
 }
 
-std::vector<FigureValue> row(const PosedCloud& scan,
-                             const RigidTransform& before,
-                             const IcpResult& result) {
-  const RigidTransform moved = before.inverse() * scan.world_from_scan;
-  return {scan.name,
-          1000 * (scan.world_from_scan.translation - before.translation).norm(),
-          rotation_angle(moved) / kDegrees.factor,
-          1000 * result.rms,
-          100 * result.overlap,
-          static_cast<long long>(result.inliers),
-          1000 * worst_sigma(result.covariance, 0),
-          worst_sigma(result.covariance, 3) / kDegrees.factor,
-          static_cast<long long>(result.iterations),
-          result.converged};
-}
-
-FigureTable empty_table() {
-  return {"scans",
-          "Scans moved onto the ones before them:",
-          {{"name", "scan", 0},
-           {"moved_by_mm", "moved by", 2},
-           {"turned_by_deg", "turned by", 4},
-           {"rms_mm", "rms", 3},
-           {"overlap_percent", "overlap", 1},
-           {"inliers", "inliers", 0},
-           {"position_sigma_mm", "sigma", 4},
-           {"angle_sigma_deg", "sigma", 5},
-           {"iterations", "steps", 0},
-           {"converged", "converged", 0}},
-          {}};
+/// One sentence when no scan could be joined with another.
+void require_any_placed(const ScanProject& project, const RegisterScansResult& result) {
+  if (result.placed >= 2) return;
+  std::string reasons;
+  for (std::size_t i = 0; i < result.scans.size(); ++i) {
+    if (!result.scans[i].placed) {
+      reasons +=
+          (reasons.empty() ? "'" : "; '") + project.scans[i].name + "': " + result.scans[i].reason;
+    }
+  }
+  fail("no scan could be placed; ", reasons);
 }
 
 void run(const RegisterArguments& a, Session& session) {
   check_output(a.out, {".toml"});
   ScanProject project = read_posed_scans(a.scans).project;
-  require(project.scans.size() >= 2,
-          "expected two scans or more, got ",
-          project.scans.size(),
-          "; name another scan");
   std::vector<RigidTransform> before;
   for (const PosedCloud& scan : project.scans) before.push_back(scan.world_from_scan);
-  RegisterOptions options = a.options;
-  options.icp.num_threads = session.num_threads;
-  options.progress = session.progress("registering scans");
-  const std::vector<IcpResult> results = register_project(project, options);
-  write_poses(a.out, project);
-  FigureTable table = empty_table();
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    table.rows.push_back(row(project.scans[i + 1], before[i + 1], results[i]));
+  const RegisterScansResult result = register_scans(project, options_of(a, session));
+  require_any_placed(project, result);
+  ScanProject placed;
+  for (std::size_t i = 0; i < result.scans.size(); ++i) {
+    if (result.scans[i].placed) placed.scans.push_back(project.scans[i]);
   }
-  session.figures.count("scan_count", "scans", project.scans.size());
-  session.figures.text("fixed_scan", "fixed", project.scans.front().name);
+  write_poses(a.out, placed);
+  report_registration(project, before, result, session.figures);
   session.figures.text("out", "written", a.out.string());
-  session.figures.table(std::move(table));
 }
 
 }  // namespace
@@ -106,9 +109,11 @@ Command register_command() {
       .name = "register",
       .summary = "move scans onto each other",
       .description =
-          "Moves every scan after the first onto those before it by point-to-plane ICP, starting "
-          "from the poses the files hold, and writes all poses. The sigmas follow from the "
-          "residuals; they do not know of errors that all points share.",
+          "Finds the poses of scans, in any order and from nothing: registers every pair, joins "
+          "the pairs in a graph that gives up those which contradict the others, registers all "
+          "that overlap once more from there, and writes the poses of the scans that were placed. "
+          "A scan that cannot be placed is refused by name. Rough poses that the files hold are "
+          "used instead of the search. docs/registration.md explains the figures.",
       .examples = {simulate + "--position-mm -1500 -300 1100 --out here",
                    simulate + "--position-mm 200 800 1100 --out there",
                    "facula extract here --out here.pcd",

@@ -4,7 +4,7 @@
 #include <facula/reconstruct/filter/cloud_filters.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
 #include <facula/reconstruct/measure/plane.hpp>
-#include <facula/reconstruct/register/register_project.hpp>
+#include <facula/reconstruct/register/register_scans.hpp>
 #include <facula/tests/support/matchers.hpp>
 #include <facula/tests/support/real_data.hpp>
 
@@ -52,12 +52,10 @@ TEST(Corridor, RegistersNearThePosesOfItsMakers) {
   FACULA_REQUIRE_REAL_DATA(folder, "range/3dtk-dat");
   ScanProject project = read_scan_project(folder);
   const ScanProject given = project;
-  const auto results = register_project(project, {.voxel = 0.04});
-  for (const IcpResult& result : results) {
-    EXPECT_TRUE(result.converged);
-    EXPECT_GT(result.overlap, 0.4);
-    EXPECT_LT(result.rms, 0.05);
-  }
+  const RegisterScansResult result = register_scans(project);
+  EXPECT_TRUE(result.from_given);
+  EXPECT_EQ(result.placed, 3U);
+  for (const ScanPlacement& scan : result.scans) EXPECT_GT(scan.overlap, 0.4) << scan.reason;
   // Their own estimates lie 0.1 to 0.7 degrees and 1 to 6 cm (1), 1 to 2 degrees and 9 to 13 cm (2)
   // from a careful ICP, by the notes of the set.
   EXPECT_TRUE(is_near_pose(

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/reconstruct/filter/normals.hpp>
 #include <facula/reconstruct/register/icp.hpp>
-#include <facula/reconstruct/register/register_project.hpp>
 #include <facula/tests/reconstruct/surfaces.hpp>
 #include <facula/tests/support/matchers.hpp>
 
@@ -156,28 +155,6 @@ TEST(RegisterIcpDegenerate, RefusesASinglePlane) {
   estimate_normals(plane);
   const std::string sentence = error_of([&] { register_icp(plane, plane, RigidTransform{}); });
   EXPECT_NE(sentence.find("undecided"), std::string::npos) << sentence;
-}
-
-TEST(RegisterProject, MovesEveryScanOntoThoseBeforeIt) {
-  ScanProject project;
-  std::vector<RigidTransform> truth;
-  for (int i = 0; i < 4; ++i) {
-    truth.push_back(twist(0.3 * i, 0.1 * i, 0, 0, 0, 0.3 * i));
-    PosedCloud scan;
-    scan.name = "scan" + std::to_string(i);
-    scan.cloud = transformed(corner(20 + std::uint64_t(i), 6000, 0.0005), truth.back().inverse());
-    scan.world_from_scan =
-        i == 0 ? truth[0] : twist(0.05, 0.04, -0.03, 0.04, -0.03, 0.05) * truth.back();
-    project.scans.push_back(scan);
-  }
-  std::size_t calls = 0;
-  const auto results = register_project(
-      project, {.voxel = 0.03, .icp = {}, .progress = [&](std::size_t, std::size_t) { ++calls; }});
-  EXPECT_EQ(results.size(), 3U);
-  EXPECT_EQ(calls, 4U);
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_TRUE(is_near_pose(project.scans[i].world_from_scan, truth[i], 0.1 * kDegree, 0.001));
-  }
 }
 
 }  // namespace

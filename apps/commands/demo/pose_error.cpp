@@ -22,6 +22,23 @@ double angle_deg(const RigidTransform& a, const RigidTransform& b) {
   return rotation_angle(a.inverse() * b) / kDegrees.factor;
 }
 
+/// Of the pair that the scan has most in common with [m].
+double best_rms(const RegisterScansResult& result, std::size_t scan) {
+  double rms = 0;
+  double overlap = 0;
+  for (const ScanEdge& edge : result.edges) {
+    const bool takes_part = edge.edge.from == scan || edge.edge.to == scan;
+    if (!takes_part || edge.verdict != EdgeVerdict::kKept || edge.overlap <= overlap) continue;
+    overlap = edge.overlap;
+    rms = edge.inlier_rms;
+  }
+  return rms;
+}
+
+double position_sigma(const ScanPlacement& place) {
+  return std::sqrt(std::max(0.0, place.covariance.diagonal().head<3>().maxCoeff()));
+}
+
 }  // namespace
 
 RigidTransform rough_pose(const RigidTransform& world_from_scan,
@@ -35,7 +52,7 @@ RigidTransform rough_pose(const RigidTransform& world_from_scan,
 
 void report_pose_errors(const std::vector<RecordedScan>& scans,
                         const ScanProject& registered,
-                        const std::vector<IcpResult>& results,
+                        const RegisterScansResult& result,
                         Figures& figures) {
   FigureTable table{"poses",
                     "",
@@ -46,20 +63,21 @@ void report_pose_errors(const std::vector<RecordedScan>& scans,
                      {"pose_error_deg", "after", 5},
                      {"rms_mm", "rms", 3},
                      {"overlap_percent", "overlap", 1},
-                     {"iterations", "steps", 0}},
+                     {"position_sigma_mm", "sigma", 4}},
                     {}};
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const RigidTransform& truth = scans[i + 1].true_world_from_scan;
-    const RigidTransform& start = scans[i + 1].extracted.scan.world_from_scan;
-    const RigidTransform& found = registered.scans[i + 1].world_from_scan;
-    table.rows.push_back({scans[i + 1].name,
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    const RigidTransform& truth = scans[i].true_world_from_scan;
+    const RigidTransform& start = scans[i].extracted.scan.world_from_scan;
+    const RigidTransform& found = registered.scans[i].world_from_scan;
+    const ScanPlacement& place = result.scans[i];
+    table.rows.push_back({scans[i].name,
                           distance_mm(start, truth),
                           angle_deg(start, truth),
                           distance_mm(found, truth),
                           angle_deg(found, truth),
-                          1000 * results[i].rms,
-                          100 * results[i].overlap,
-                          static_cast<long long>(results[i].iterations)});
+                          1000 * best_rms(result, i),
+                          100 * place.overlap,
+                          1000 * position_sigma(place)});
   }
   figures.table(std::move(table));
 }

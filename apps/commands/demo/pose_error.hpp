@@ -5,7 +5,7 @@
 #include <facula/apps/cli/figures.hpp>
 #include <facula/apps/commands/demo/demo_settings.hpp>
 #include <facula/apps/commands/demo/recorded_scan.hpp>
-#include <facula/reconstruct/register/register_project.hpp>
+#include <facula/reconstruct/register/register_scans.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -22,7 +22,7 @@ RigidTransform rough_pose(const RigidTransform& world_from_scan,
 /// world and keeps its true pose.
 void report_pose_errors(const std::vector<RecordedScan>& scans,
                         const ScanProject& registered,
-                        const std::vector<IcpResult>& results,
+                        const RegisterScansResult& result,
                         Figures& figures);
 
 }  // namespace facula

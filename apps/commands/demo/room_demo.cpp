@@ -69,23 +69,24 @@ void report_scans(const std::vector<RecordedScan>& scans, Figures& figures) {
   report_range_errors(clean, filtered);
 }
 
-void register_scans(RoomDemo& demo, const DemoSettings& settings, Session& session) {
+void register_room(RoomDemo& demo, const DemoSettings& settings, Session& session) {
   for (const RecordedScan& scan : demo.scans) {
     demo.project.scans.push_back({scan.name,
                                   settings.folder / "scans" / (scan.name + ".pcd"),
                                   cloud_from_scan(scan.clean),
-                                  scan.clean.world_from_scan});
+                                  scan.clean.world_from_scan,
+                                  grid_from_scan(scan.clean)});
   }
-  RegisterOptions options;
-  options.voxel = settings.room_voxel();
-  options.icp.max_distance = 0.4;
-  options.icp.num_threads = settings.num_threads;
+  RegisterScansOptions options;
+  options.start = ScanStart::kGiven;
+  options.refinement.max_distance = 4 * settings.start_distance;
+  options.num_threads = settings.num_threads;
   options.progress = session.progress("registering the room");
-  const std::vector<IcpResult> results = register_project(demo.project, options);
+  const RegisterScansResult result = register_scans(demo.project, options);
   write_poses(settings.folder / "poses.toml", demo.project);
   report_pose_errors(demo.scans,
                      demo.project,
-                     results,
+                     result,
                      session.figures.part("register", "3 Registering scans 2 and 3 to scan 1:"));
 }
 
@@ -149,7 +150,7 @@ RoomDemo run_room_demo(const DemoSettings& settings, Session& session) {
   RoomDemo demo;
   demo.scans = record_scans(scene, settings, session);
   report_scans(demo.scans, session.figures);
-  register_scans(demo, settings, session);
+  register_room(demo, settings, session);
   measure_planes(demo, scene, settings, session);
   make_mesh(demo, scene, settings, session);
   make_map(demo, scene, settings, session);

@@ -6,7 +6,7 @@
 #include <facula/apps/commands/demo/recorded_scan.hpp>
 #include <facula/map/occupancy_map.hpp>
 #include <facula/reconstruct/measure/plane.hpp>
-#include <facula/reconstruct/register/register_project.hpp>
+#include <facula/reconstruct/register/register_scans.hpp>
 
 #include <vector>
 

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/median.hpp>
+#include <facula/reconstruct/register/scan_network.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+
+namespace facula {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// The edge's information after the error of whole scans was added to its pose, about the middle of
+/// what both share: (I^-1 + F)^-1 = G - G (I + G)^-1 G with G = F^-1, which holds for any rank.
+Matrix6 softened(const ScanEdge& edge, double scan_sigma) {
+  const Eigen::Vector3d& c = edge.middle;
+  // A twist about the origin moves the middle by t + w x c.
+  Matrix6 to_middle = Matrix6::Identity();
+  to_middle.topRightCorner<3, 3>() << 0, c.z(), -c.y(), -c.z(), 0, c.x(), c.y(), -c.x(), 0;
+  const double shift = 1 / (scan_sigma * scan_sigma);
+  Eigen::Matrix<double, 6, 1> weight;
+  weight << Eigen::Vector3d::Constant(shift),
+      Eigen::Vector3d::Constant(shift * edge.radius * edge.radius);
+  const Matrix6 g = to_middle.transpose() * weight.asDiagonal() * to_middle;
+  const Matrix6 soft = g - g * (edge.edge.information + g).ldlt().solve(g);
+  return (soft + soft.transpose()) / 2;
+}
+
+/// The lowest scan that each is joined with over the kept edges.
+std::vector<std::size_t> groups_of(std::size_t scans, const std::vector<ScanEdge>& edges) {
+  std::vector<std::size_t> group(scans);
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  for (const ScanEdge& edge : edges) {
+    if (edge.verdict != EdgeVerdict::kKept) continue;
+    const std::size_t a = group[edge.edge.from];
+    const std::size_t b = group[edge.edge.to];
+    for (std::size_t& g : group) g = g == std::max(a, b) ? std::min(a, b) : g;
+  }
+  return group;
+}
+
+/// The group of the most scans; of equal ones the first.
+std::size_t largest_group(const std::vector<std::size_t>& group) {
+  std::vector<std::size_t> count(group.size());
+  for (const std::size_t g : group) ++count[g];
+  return static_cast<std::size_t>(std::max_element(count.begin(), count.end()) - count.begin());
+}
+
+/// Poses along the tree of those edges that overlap most, from each group's lowest scan.
+std::vector<RigidTransform> tree_poses(const ScanProject& project,
+                                       const std::vector<ScanEdge>& edges) {
+  std::vector<std::size_t> best(edges.size());
+  std::iota(best.begin(), best.end(), std::size_t{0});
+  std::stable_sort(best.begin(), best.end(), [&](std::size_t a, std::size_t b) {
+    return edges[a].overlap > edges[b].overlap;
+  });
+  std::vector<RigidTransform> poses;
+  std::vector<std::size_t> tree;
+  for (const PosedCloud& scan : project.scans) {
+    tree.push_back(poses.size());
+    poses.push_back(scan.world_from_scan);
+  }
+  for (const std::size_t e : best) {
+    const PoseEdge& edge = edges[e].edge;
+    if (edges[e].verdict != EdgeVerdict::kKept || tree[edge.from] == tree[edge.to]) continue;
+    // The tree of the higher number moves onto the other.
+    const bool from_moves = tree[edge.from] > tree[edge.to];
+    const RigidTransform step = from_moves ? edge.to_from_from : edge.to_from_from.inverse();
+    const std::size_t moving = from_moves ? edge.from : edge.to;
+    const std::size_t staying = from_moves ? edge.to : edge.from;
+    const RigidTransform change = poses[staying] * step * poses[moving].inverse();
+    const std::size_t old = tree[moving];
+    for (std::size_t i = 0; i < tree.size(); ++i) {
+      if (tree[i] != old) continue;
+      poses[i] = change * poses[i];
+      tree[i] = tree[staying];
+    }
+  }
+  return poses;
+}
+
+/// The kept edges for the graph; `which` receives their numbers.
+std::vector<PoseEdge> graph_edges(const std::vector<ScanEdge>& edges,
+                                  double scan_sigma,
+                                  std::vector<std::size_t>& which) {
+  std::vector<PoseEdge> measured;
+  which.clear();
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges[e].verdict != EdgeVerdict::kKept) continue;
+    measured.push_back(edges[e].edge);
+    measured.back().information = softened(edges[e], scan_sigma);
+    which.push_back(e);
+  }
+  return measured;
+}
+
+void add_motion(const ScanMotion& motion,
+                const std::vector<std::size_t>& group,
+                const std::vector<RigidTransform>& poses,
+                std::vector<PoseEdge>& edges) {
+  if (motion.kind == ScanMotion::Kind::kFree) return;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const std::size_t root = group[i];
+    if (root != i) edges.push_back(motion.as_edge(i, root, poses[root].inverse() * poses[i]));
+  }
+}
+
+void note_residuals(const PoseGraphResult& graph,
+                    const std::vector<std::size_t>& which,
+                    std::vector<ScanEdge>& edges) {
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    ScanEdge& edge = edges[which[k]];
+    edge.residual = graph.edges[k];
+    if (!graph.edges[k].outlier) continue;
+    edge.verdict = EdgeVerdict::kOutlier;
+    edge.reason = "it contradicts the other pairs";
+  }
+}
+
+/// chi2 of the kept edges over what it should be; 0 where no loop tells.
+double median_excess(const std::vector<ScanEdge>& edges) {
+  constexpr double kMedianOfSix = 5.348;  // of chi2 with six degrees of freedom
+  std::vector<double> excess;
+  for (const ScanEdge& edge : edges) {
+    if (edge.verdict != EdgeVerdict::kKept || edge.residual.redundancy < 0.1) continue;
+    excess.push_back(edge.residual.chi2 / (edge.residual.redundancy * kMedianOfSix));
+  }
+  return excess.size() < 3 ? 0.0 : median(excess);
+}
+
+}  // namespace
+
+ScanNetwork join_scans(const ScanProject& project,
+                       std::vector<ScanEdge>& edges,
+                       const RegisterScansOptions& options,
+                       double scan_sigma) {
+  const std::size_t count = project.scans.size();
+  std::vector<std::size_t> which;
+  const std::vector<RigidTransform> start = tree_poses(project, edges);
+  std::vector<PoseEdge> measured = graph_edges(edges, scan_sigma, which);
+  add_motion(options.motion, groups_of(count, edges), start, measured);
+  PoseGraphOptions how = options.graph;
+  how.anchor = 0;
+  const PoseGraphResult robust = solve_pose_graph(count, measured, start, how);
+  note_residuals(robust, which, edges);
+
+  // Once more, plain, over the edges kept: the anchor and the covariances are the group's own.
+  const std::vector<std::size_t> group = groups_of(count, edges);
+  const std::size_t largest = largest_group(group);
+  ScanNetwork network;
+  network.anchor = largest;
+  const RigidTransform back =
+      project.scans[largest].world_from_scan * robust.world_from_scan[largest].inverse();
+  std::vector<RigidTransform> poses = robust.world_from_scan;
+  for (RigidTransform& pose : poses) pose = back * pose;
+  measured = graph_edges(edges, scan_sigma, which);
+  add_motion(options.motion, group, poses, measured);
+  how.anchor = largest;
+  how.robust = false;
+  const PoseGraphResult plain = solve_pose_graph(count, measured, poses, how);
+  note_residuals(plain, which, edges);
+  network.covariance = plain.covariance;
+  network.chi2 = plain.chi2;
+  network.degrees_of_freedom = plain.degrees_of_freedom;
+  for (std::size_t i = 0; i < count; ++i) {
+    network.world_from_scan.push_back(group[i] == largest ? std::optional(plain.world_from_scan[i])
+                                                          : std::nullopt);
+  }
+  return network;
+}
+
+double fitting_scan_sigma(const ScanProject& project,
+                          const std::vector<ScanEdge>& edges,
+                          const RegisterScansOptions& options,
+                          const std::pair<double, double>& least_most) {
+  RegisterScansOptions plain = options;
+  plain.graph.robust = false;
+  const auto [least, most] = least_most;
+  double low = least;
+  double high = most;
+  for (int step = 0; step < 12; ++step) {
+    const double sigma = step == 0 ? least : std::sqrt(low * high);
+    std::vector<ScanEdge> tried = edges;
+    join_scans(project, tried, plain, sigma);
+    if (median_excess(tried) > 1) {
+      low = sigma;
+    } else if (step == 0) {
+      return least;
+    } else {
+      high = sigma;
+    }
+  }
+  return high;
+}
+
+}  // namespace facula

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// register_many bunny [SHUFFLES] | room [STEP_DEG] [--json]
+//
+// Registration of many scans from nothing, against known poses. bunny: the ten scans of the set
+// range/stanford-bunny in shuffled orders, each order with 2 threads, the first also with 1.
+// room: eight stations of the simulated head in data/scenes/furnished_room.toml, from frames.
+#include <facula/acquire/capture/capture_file.hpp>
+#include <facula/acquire/core/random.hpp>
+#include <facula/acquire/rig/rig_file.hpp>
+#include <facula/acquire/simulate/scene.hpp>
+#include <facula/acquire/simulate/simulate.hpp>
+#include <facula/acquire/triangulate/extract_scan.hpp>
+#include <facula/reconstruct/filter/scan_filters.hpp>
+#include <facula/reconstruct/register/register_scans.hpp>
+#include <facula/tests/support/real_data.hpp>
+#include <facula/tests/support/temporary_folder.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace facula {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// A project whose poses are known; registration is given the identity for each.
+struct KnownProject {
+  ScanProject project;
+  std::vector<RigidTransform> truth;
+};
+
+struct Outcome {
+  RegisterScansResult result;
+  std::vector<RigidTransform> poses;
+  double seconds = 0;
+  double worst_angle = 0;     // of placed scans against the truth [rad]
+  double worst_distance = 0;  // of their frames' origins [m]
+};
+
+Outcome registered(const KnownProject& known, int num_threads) {
+  ScanProject project = known.project;
+  RegisterScansOptions options;
+  options.start = ScanStart::kNothing;
+  options.num_threads = num_threads;
+  const auto start = std::chrono::steady_clock::now();
+  Outcome outcome;
+  outcome.result = register_scans(project, options);
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (const PosedCloud& scan : project.scans) outcome.poses.push_back(scan.world_from_scan);
+  return outcome;
+}
+
+/// Pose errors after the anchor was laid onto its true pose.
+std::pair<double, double> error_of_scan(const KnownProject& known,
+                                        const Outcome& outcome,
+                                        std::size_t i) {
+  const std::size_t a = outcome.result.anchor;
+  const RigidTransform true_from_found = known.truth[a] * outcome.poses[a].inverse();
+  const RigidTransform found = true_from_found * outcome.poses[i];
+  return {rotation_angle(known.truth[i].inverse() * found),
+          (known.truth[i].translation - found.translation).norm()};
+}
+
+void print_edges(const KnownProject& known, const Outcome& outcome) {
+  for (const ScanEdge& edge : outcome.result.edges) {
+    const auto& scans = known.project.scans;
+    const RigidTransform truth = known.truth[edge.edge.to].inverse() * known.truth[edge.edge.from];
+    const RigidTransform off = truth.inverse() * edge.edge.to_from_from;
+    std::printf(
+        "  %-9s %-9s %-8s overlap %4.1f %% rms %.3f mm chi2 %9.2f redundancy %.2f off %.3f deg "
+        "%.3f mm  %s\n",
+        scans[edge.edge.from].name.c_str(),
+        scans[edge.edge.to].name.c_str(),
+        to_string(edge.verdict),
+        100 * edge.overlap,
+        1000 * edge.inlier_rms,
+        edge.residual.chi2,
+        edge.residual.redundancy,
+        rotation_angle(off) / kDegree,
+        1000 * off.translation.norm(),
+        edge.reason.c_str());
+  }
+}
+
+void print_scans(const KnownProject& known, Outcome& outcome) {
+  for (std::size_t i = 0; i < known.truth.size(); ++i) {
+    const ScanPlacement& place = outcome.result.scans[i];
+    const std::string& name = known.project.scans[i].name;
+    if (!place.placed) {
+      std::printf("  %-10s refused: %s\n", name.c_str(), place.reason.c_str());
+      continue;
+    }
+    const auto [angle, distance] = error_of_scan(known, outcome, i);
+    outcome.worst_angle = std::max(outcome.worst_angle, angle);
+    outcome.worst_distance = std::max(outcome.worst_distance, distance);
+    std::printf(
+        "  %-10s off %.4f deg %.4f mm; sigma %.4f mm; %zu edges, checked %.2f, overlap %.0f %%, in "
+        "free space %.1f %%\n",
+        name.c_str(),
+        angle / kDegree,
+        1000 * distance,
+        1000 * std::sqrt(std::max(0.0, place.covariance.diagonal().head<3>().maxCoeff())),
+        place.edges,
+        place.checked,
+        100 * place.overlap,
+        100 * place.contradiction);
+  }
+}
+
+void report(const char* what, const KnownProject& known, Outcome& outcome) {
+  std::printf("%s\n", what);
+  print_edges(known, outcome);
+  print_scans(known, outcome);
+  std::printf("  placed %zu of %zu, worst %.4f deg %.4f mm, scan sigma %.4f mm, %.2f s\n",
+              outcome.result.placed,
+              known.truth.size(),
+              outcome.worst_angle / kDegree,
+              1000 * outcome.worst_distance,
+              1000 * outcome.result.scan_sigma,
+              outcome.seconds);
+  std::fflush(stdout);
+}
+
+bool same_poses(const Outcome& a, const Outcome& b) {
+  for (std::size_t i = 0; i < a.poses.size(); ++i) {
+    if (a.poses[i].translation != b.poses[i].translation ||
+        a.poses[i].rotation.coeffs() != b.poses[i].rotation.coeffs()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+KnownProject shuffled(const ScanProject& published, std::uint64_t seed) {
+  KnownProject known;
+  std::vector<std::size_t> order;
+  Random random(seed);
+  for (std::size_t i = 0; i < published.scans.size(); ++i) {
+    order.insert(order.begin() + static_cast<std::ptrdiff_t>(random.below(i + 1)), i);
+  }
+  for (const std::size_t i : order) {
+    known.project.scans.push_back(published.scans[i]);
+    known.truth.push_back(published.scans[i].world_from_scan);
+    known.project.scans.back().world_from_scan = {};
+  }
+  return known;
+}
+
+int study_bunny(int shuffles) {
+  const auto folder = real_data("range/stanford-bunny");
+  if (!folder) {
+    std::puts("the set range/stanford-bunny is absent");
+    return 0;
+  }
+  const ScanProject published = read_scan_project(*folder / "data" / "bun.conf");
+  for (int s = 0; s < shuffles; ++s) {
+    const KnownProject known = shuffled(published, static_cast<std::uint64_t>(s));
+    Outcome outcome = registered(known, 2);
+    report(("bunny, order " + std::to_string(s)).c_str(), known, outcome);
+    if (s > 0) continue;
+    const Outcome alone = registered(known, 1);
+    std::printf("  with 1 thread: %s, %.2f s\n",
+                same_poses(outcome, alone) ? "the same bits" : "OTHER POSES",
+                alone.seconds);
+  }
+  return 0;
+}
+
+/// Eight places at least half a metre clear of everything (see the scene), heads plumb.
+std::vector<RigidTransform> stations() {
+  std::vector<RigidTransform> poses;
+  const double places[8][3] = {{-1.5, -0.3, 0},
+                               {0.2, 0.8, 120},
+                               {1.7, -0.3, -75},
+                               {-0.3, -0.2, 200},
+                               {-1.2, 0.8, 40},
+                               {0.8, -0.2, 310},
+                               {1.9, 0.7, 160},
+                               {-0.7, 0.4, 265}};
+  for (const auto& [x, y, yaw] : places) {
+    poses.push_back({Eigen::Quaterniond(Eigen::AngleAxisd(yaw * kDegree, Eigen::Vector3d::UnitZ())),
+                     {x, y, 1.1}});
+  }
+  return poses;
+}
+
+PosedCloud seen_room(const Scene& scene,
+                     const Rig& rig,
+                     const SimulatedRun& run,
+                     std::uint64_t seed) {
+  const TemporaryFolder folder;
+  SimulateOptions options = options_for(rig);
+  options.seed = seed;
+  simulate_capture(folder / "capture", scene, rig, run, options);
+  PolarScan scan = extract_scan(read_capture(folder / "capture")).scan;
+  remove_mixed_points(scan);
+  PosedCloud seen;
+  seen.cloud = cloud_from_scan(scan);
+  seen.grid = grid_from_scan(scan);
+  return seen;
+}
+
+int study_room(double step) {
+  const Scene scene = read_scene(shipped_data("scenes/furnished_room.toml"));
+  const Rig rig = read_rig(shipped_data("rigs/head_fs1500.toml"));
+  KnownProject known;
+  known.truth = stations();
+  std::vector<double> positions;
+  for (double angle = 0; angle < 2 * std::numbers::pi - step / 2; angle += step) {
+    positions.push_back(angle);
+  }
+  for (const RigidTransform& pose : known.truth) {
+    const std::size_t number = known.project.scans.size() + 1;
+    known.project.scans.push_back(seen_room(scene, rig, {pose, positions}, number));
+    known.project.scans.back().name = "station" + std::to_string(number);
+    std::fprintf(stderr, "%s simulated\n", known.project.scans.back().name.c_str());
+  }
+  Outcome outcome = registered(known, 2);
+  report("room of eight stations", known, outcome);
+  const Outcome alone = registered(known, 1);
+  std::printf("  with 1 thread: %s, %.2f s\n",
+              same_poses(outcome, alone) ? "the same bits" : "OTHER POSES",
+              alone.seconds);
+  return 0;
+}
+
+int study(int argc, char** argv) {
+  const std::string what = argc > 1 ? argv[1] : "";
+  if (what == "bunny") return study_bunny(argc > 2 ? std::atoi(argv[2]) : 5);
+  if (what == "room") return study_room((argc > 2 ? std::atof(argv[2]) : 1.2) * kDegree);
+  std::fprintf(stderr, "expected bunny or room, got '%s'\n", what.c_str());
+  return 2;
+}
+
+}  // namespace
+}  // namespace facula
+
+int main(int argc, char** argv) {
+  try {
+    return facula::study(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
