@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/parallel.hpp>
+#include <facula/reconstruct/mesh/distance_volume.hpp>
+#include <facula/reconstruct/mesh/sight_prism.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace facula {
+namespace {
+
+constexpr int kKeyBits = 21;
+constexpr int kKeyOffset = 1 << (kKeyBits - 1);
+constexpr std::size_t kTrianglesPerChunk = 4096;
+constexpr std::size_t kBricksPerChunk = 16;
+
+[[noreturn]] void fail_for_memory(double bytes, const DistanceVolumeOptions& options) {
+  fail("voxels of ",
+       options.voxel * 1e3,
+       " mm about these scans need more than ",
+       bytes * 1e-9,
+       " GB, where ",
+       options.max_memory * 1e-9,
+       " GB are allowed; take larger voxels, allow more, or merge in blocks");
+}
+
+void check_extent(const RangeSurface& surface, double voxel) {
+  const double most = voxel * (kKeyOffset - 2) * kBrickSide;
+  for (const TriangleMesh::Triangle& triangle : surface.triangles) {
+    for (const std::uint32_t v : triangle) {
+      const Eigen::Vector3f& p = surface.vertices[v].point;
+      require(p.cwiseAbs().maxCoeff() < most,
+              "a point stands ",
+              p.cwiseAbs().maxCoeff(),
+              " m from the world's origin, where voxels of ",
+              voxel * 1e3,
+              " mm reach ",
+              most,
+              " m; take larger voxels or move the scans nearer to the origin");
+    }
+  }
+}
+
+}  // namespace
+
+std::uint64_t brick_key(const BrickPlace& place) {
+  const auto part = [](int v) { return static_cast<std::uint64_t>(v + kKeyOffset); };
+  return part(place.z()) << (2 * kKeyBits) | part(place.y()) << kKeyBits | part(place.x());
+}
+
+BrickPlace brick_place(std::uint64_t key) {
+  const auto part = [key](int shift) {
+    constexpr std::uint64_t kMask = (std::uint64_t{1} << kKeyBits) - 1;
+    return static_cast<int>(key >> shift & kMask) - kKeyOffset;
+  };
+  return {part(0), part(kKeyBits), part(2 * kKeyBits)};
+}
+
+std::optional<std::uint32_t> DistanceVolume::find(const BrickPlace& place) const {
+  const auto found = index_.find(brick_key(place));
+  if (found == index_.end()) return std::nullopt;
+  return found->second;
+}
+
+std::uint32_t DistanceVolume::find_or_add(std::uint64_t key) {
+  const auto [entry, is_new] = index_.try_emplace(key, static_cast<std::uint32_t>(bricks_.size()));
+  if (is_new) {
+    const double bytes = static_cast<double>((bricks_.size() + 1) * (sizeof(Brick) + 64));
+    if (bytes > options_.max_memory) fail_for_memory(bytes, options_);
+    bricks_.emplace_back();
+    places_.push_back(brick_place(key));
+  }
+  return entry->second;
+}
+
+/// For every chunk of triangles the bricks they meet, in order.
+std::vector<std::vector<DistanceVolume::Visit>> DistanceVolume::visits_of(
+    const RangeSurface& surface) const {
+  check_extent(surface, options_.voxel);
+  const auto truncation = static_cast<float>(options_.truncation / options_.voxel);
+  const std::size_t count = surface.triangles.size();
+  std::vector<std::vector<Visit>> visits(count / kTrianglesPerChunk + 1);
+  const double most_visits = options_.max_memory / sizeof(Visit);
+  const auto list = [&](std::size_t begin, std::size_t end) {
+    auto& out = visits[begin / kTrianglesPerChunk];
+    for (std::size_t t = begin; t < end; ++t) {
+      const SightPrism prism(surface, surface.triangles[t], options_.voxel, truncation);
+      if (!prism.usable()) continue;
+      const double after = static_cast<double>(out.size()) + prism.bricks_at_most();
+      if (after > most_visits) fail_for_memory(after * sizeof(Visit), options_);
+      prism.visit_bricks([&](const BrickPlace& place) {
+        if (options_.box && !options_.box->holds(place)) return;
+        out.push_back({brick_key(place), static_cast<std::uint32_t>(t)});
+      });
+    }
+  };
+  parallel_for(count, list, {.num_threads = options_.num_threads, .chunk = kTrianglesPerChunk});
+  return visits;
+}
+
+void DistanceVolume::add(const RangeSurface& surface) {
+  const auto visits = visits_of(surface);
+  // Which triangles each touched brick has, in their order.
+  struct Touched {
+    std::uint32_t brick;
+    std::uint32_t begin;
+    std::uint32_t end;
+  };
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<Touched> touched;
+  std::vector<std::uint32_t> slot_of_brick;
+  std::vector<std::uint32_t> slots;
+  std::uint64_t last_key = ~std::uint64_t{0};
+  std::uint32_t last_slot = 0;
+  for (const auto& chunk : visits) {
+    for (const Visit& visit : chunk) {
+      if (visit.brick != last_key) {
+        const std::uint32_t brick = find_or_add(visit.brick);
+        if (slot_of_brick.size() <= brick) slot_of_brick.resize(bricks_.size(), kNone);
+        if (slot_of_brick[brick] == kNone) {
+          slot_of_brick[brick] = static_cast<std::uint32_t>(touched.size());
+          touched.push_back({brick, 0, 0});
+        }
+        last_key = visit.brick;
+        last_slot = slot_of_brick[brick];
+      }
+      ++touched[last_slot].end;
+      slots.push_back(last_slot);
+    }
+  }
+  std::uint32_t begin = 0;
+  for (Touched& t : touched) {
+    const std::uint32_t count = t.end;
+    t.begin = t.end = begin;
+    begin += count;
+  }
+  std::vector<std::uint32_t> triangles(slots.size());
+  std::size_t next = 0;
+  for (const auto& chunk : visits) {
+    for (const Visit& visit : chunk) triangles[touched[slots[next++]].end++] = visit.triangle;
+  }
+  const auto truncation = static_cast<float>(options_.truncation / options_.voxel);
+  const auto fill = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Touched& t = touched[i];
+      Brick& brick = bricks_[t.brick];
+      for (std::uint32_t k = t.begin; k < t.end; ++k) {
+        const TriangleMesh::Triangle& triangle = surface.triangles[triangles[k]];
+        SightPrism(surface, triangle, options_.voxel, truncation).add_to(places_[t.brick], brick);
+      }
+    }
+  };
+  parallel_for(
+      touched.size(), fill, {.num_threads = options_.num_threads, .chunk = kBricksPerChunk});
+}
+
+}  // namespace facula
