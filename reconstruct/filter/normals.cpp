@@ -4,28 +4,61 @@
 #include <facula/reconstruct/filter/cloud_filters.hpp>
 #include <facula/reconstruct/filter/nearest_neighbours.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
+#include <facula/reconstruct/filter/plane_of_points.hpp>
 #include <facula/reconstruct/filter/sampling_distance.hpp>
 
-#include <Eigen/Eigenvalues>
+#include <span>
 
 namespace facula {
 namespace {
 
-/// Least eigenvector of the covariance of the points at `neighbours`.
-Eigen::Vector3d local_normal(const std::vector<Eigen::Vector3f>& points,
-                             const std::vector<NearestNeighbours::Neighbour>& neighbours) {
-  // About the first neighbour: far from the frame's origin the squares would eat the digits.
-  const Eigen::Vector3d base = points[neighbours.front().index].cast<double>();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (const auto& neighbour : neighbours) {
-    const Eigen::Vector3d d = points[neighbour.index].cast<double>() - base;
-    sum += d;
-    squares += d * d.transpose();
-  }
-  const double n = static_cast<double>(neighbours.size());
-  const Eigen::Matrix3d scatter = squares - sum * sum.transpose() / n;
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(0);
+Eigen::Vector3f towards_sensor(const PointCloud& cloud, std::size_t i) {
+  const Eigen::Vector3f origin =
+      cloud.sensor_origin.empty() ? Eigen::Vector3f::Zero() : cloud.sensor_origin[i];
+  return origin - cloud.points[i];
+}
+
+/// The normal of the plane through a point's neighbours, themselves points of `surface`; zero for
+/// fewer than three.
+Eigen::Vector3f normal_of(const std::vector<Eigen::Vector3f>& surface,
+                          std::span<const NearestNeighbours::Neighbour> neighbours,
+                          const Eigen::Vector3f& direction) {
+  if (neighbours.size() < 3) return Eigen::Vector3f::Zero();
+  PlaneOfPoints plane(surface[neighbours.front().index]);
+  for (const auto& neighbour : neighbours) plane.add(surface[neighbour.index]);
+  return plane.normal_towards(direction);
+}
+
+std::vector<Eigen::Vector3f> normals_of_neighbours(const PointCloud& cloud,
+                                                   const NearestNeighbours& tree,
+                                                   const NormalOptions& options) {
+  std::vector<Eigen::Vector3f> normals(cloud.size(), Eigen::Vector3f::Zero());
+  const auto estimate = [&](std::size_t i, std::span<const NearestNeighbours::Neighbour> found) {
+    normals[i] = normal_of(cloud.points, found, towards_sensor(cloud, i));
+  };
+  tree.for_all_nearest(options.neighbours, estimate, options.num_threads);
+  return normals;
+}
+
+/// The same with neighbours from the cloud thinned to `voxel`.
+std::vector<Eigen::Vector3f> normals_of_evened(const PointCloud& cloud,
+                                               double voxel,
+                                               const NormalOptions& options) {
+  PointCloud positions;
+  positions.points = cloud.points;
+  const std::vector<Eigen::Vector3f> surface =
+      thin_by_voxel(positions, voxel).points;
+  const NearestNeighbours tree(surface, options.num_threads);
+  std::vector<Eigen::Vector3f> normals(cloud.size(), Eigen::Vector3f::Zero());
+  const auto estimate = [&](std::size_t begin, std::size_t end) {
+    std::vector<NearestNeighbours::Neighbour> buffer(std::size_t(options.neighbours));
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::span found(buffer.data(), tree.nearest(cloud.points[i], buffer));
+      normals[i] = normal_of(surface, found, towards_sensor(cloud, i));
+    }
+  };
+  parallel_for(cloud.size(), estimate, {.num_threads = options.num_threads, .chunk = 1024});
+  return normals;
 }
 
 }  // namespace
@@ -41,23 +74,10 @@ void estimate_normals(PointCloud& cloud, const NormalOptions& options) {
   require(cloud.empty() || cloud.size() >= 3,
           "normals need at least 3 points, the cloud has ",
           cloud.size());
-  const double voxel = evening_voxel(cloud);
-  const std::vector<Eigen::Vector3f> surface =
-      voxel > 0 ? thin_by_voxel({.points = cloud.points}, voxel).points : cloud.points;
-  const NearestNeighbours tree(surface);
-  std::vector<Eigen::Vector3f> normals(cloud.size(), Eigen::Vector3f::Zero());
-  const auto estimate = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto neighbours = tree.nearest(cloud.points[i], options.neighbours);
-      if (neighbours.size() < 3) continue;
-      const Eigen::Vector3f normal = local_normal(surface, neighbours).cast<float>();
-      const Eigen::Vector3f origin =
-          cloud.sensor_origin.empty() ? Eigen::Vector3f::Zero() : cloud.sensor_origin[i];
-      normals[i] = normal.dot(origin - cloud.points[i]) < 0 ? Eigen::Vector3f(-normal) : normal;
-    }
-  };
-  parallel_for(cloud.size(), estimate, {.num_threads = options.num_threads, .chunk = 1024});
-  cloud.normals = std::move(normals);
+  const NearestNeighbours tree(cloud.points, options.num_threads);
+  const double voxel = evening_voxel(cloud, tree);
+  cloud.normals = voxel > 0 ? normals_of_evened(cloud, voxel, options)
+                            : normals_of_neighbours(cloud, tree, options);
 }
 
 }  // namespace facula

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <facula/acquire/core/parallel.hpp>
 #include <facula/reconstruct/filter/nearest_neighbours.hpp>
 #include <facula/reconstruct/filter/point_spacing.hpp>
 
@@ -12,13 +11,12 @@ namespace facula {
 std::vector<float> point_spacing(const std::vector<Eigen::Vector3f>& points) {
   const NearestNeighbours tree(points);
   std::vector<float> spacing(points.size(), std::numeric_limits<float>::quiet_NaN());
-  const auto measure = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto nearest = tree.nearest(points[i], 2);
-      if (nearest.size() == 2) spacing[i] = std::sqrt(nearest[1].squared_distance);
-    }
+  const auto measure = [&](std::size_t i, std::span<const NearestNeighbours::Neighbour> found) {
+    float squared = 0;  // of the two, the point itself is at 0
+    for (const auto& neighbour : found) squared = std::max(squared, neighbour.squared_distance);
+    if (found.size() == 2) spacing[i] = std::sqrt(squared);
   };
-  parallel_for(points.size(), measure, {.num_threads = 0, .chunk = 1024});
+  tree.for_all_nearest(2, measure);
   return spacing;
 }
 

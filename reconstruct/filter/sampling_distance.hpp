@@ -2,6 +2,7 @@
 #pragma once
 
 #include <facula/acquire/core/point_cloud.hpp>
+#include <facula/reconstruct/filter/nearest_neighbours.hpp>
 
 namespace facula {
 
@@ -20,5 +21,8 @@ SamplingDistance sampling_distance(const PointCloud& cloud);
 /// Voxel that evens out a cloud sampled more than three times as coarsely from stripe to stripe as
 /// along the stripe: half the coarse step [m]. 0 where the cloud is even enough as it is.
 double evening_voxel(const PointCloud& cloud);
+
+/// The same where the tree of the cloud's points is there already.
+double evening_voxel(const PointCloud& cloud, const NearestNeighbours& tree);
 
 }  // namespace facula
