@@ -3,77 +3,73 @@
 #include <facula/reconstruct/measure/largest_piece.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
-#include <utility>
+#include <numeric>
+
+#include <Eigen/Geometry>
 
 namespace facula {
 namespace {
 
 using CellKey = std::uint64_t;
 
-CellKey key_of(std::int64_t u, std::int64_t v) {
-  return (static_cast<CellKey>(static_cast<std::uint32_t>(u)) << 32) |
-         static_cast<std::uint32_t>(v);
+constexpr std::uint64_t kRow = std::uint64_t{1} << 32;
+
+/// The cell of a place on the plane: rows in the upper half, so that sorted keys run row by row.
+CellKey key_of(double u, double v) {
+  const auto step = [](double s) {
+    return static_cast<std::uint64_t>(std::clamp(std::floor(s), -2e9, 2e9) + 2147483648.0);
+  };
+  return step(u) * kRow + step(v);
 }
 
-std::pair<std::int64_t, std::int64_t> cell_of(CellKey key) {
-  return {static_cast<std::int32_t>(key >> 32), static_cast<std::int32_t>(key & 0xffffffffU)};
-}
-
-/// Two unit vectors that span the plane.
-std::array<Eigen::Vector3d, 2> axes_of(const Plane& plane) {
-  const Eigen::Vector3d u = plane.normal.unitOrthogonal();
-  return {u, plane.normal.cross(u)};
-}
-
-/// Numbers the connected groups of cells; returns the number of the one with most points.
+/// Groups of cells that touch, corners included (union-find over the sorted cells).
 class CellGroups {
  public:
-  explicit CellGroups(const std::vector<CellKey>& key_of_point) {
-    for (const CellKey key : key_of_point) ++cells_[key].points;
-    std::size_t most = 0;
-    for (const CellKey key : key_of_point) {  // in the order of the points: the same every time
-      if (cells_[key].group != 0) continue;
-      const std::size_t points = fill(key, ++groups_);
-      if (points <= most) continue;
-      most = points;
-      largest_ = groups_;
-    }
+  explicit CellGroups(const std::vector<CellKey>& key_of_point) : cells_(key_of_point) {
+    std::sort(cells_.begin(), cells_.end());
+    cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+    parent_.resize(cells_.size());
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    join_neighbours();
   }
 
-  bool in_largest(CellKey key) const { return cells_.at(key).group == largest_; }
+  std::size_t group_of(CellKey key) {
+    const auto cell = std::lower_bound(cells_.begin(), cells_.end(), key);
+    return root(static_cast<std::size_t>(cell - cells_.begin()));
+  }
+
+  std::size_t cells() const { return cells_.size(); }
 
  private:
-  struct Cell {
-    std::size_t points = 0;
-    std::size_t group = 0;
-  };
-
-  std::size_t fill(CellKey start, std::size_t group) {
-    std::vector<CellKey> open{start};
-    cells_[start].group = group;
-    std::size_t points = 0;
-    while (!open.empty()) {
-      const CellKey key = open.back();
-      open.pop_back();
-      points += cells_[key].points;
-      const auto [u, v] = cell_of(key);
-      for (int i = 0; i < 9; ++i) {
-        const auto next = cells_.find(key_of(u + i / 3 - 1, v + i % 3 - 1));
-        if (next == cells_.end() || next->second.group != 0) continue;
-        next->second.group = group;
-        open.push_back(next->first);
-      }
+  std::size_t root(std::size_t cell) {
+    while (parent_[cell] != cell) {
+      parent_[cell] = parent_[parent_[cell]];
+      cell = parent_[cell];
     }
-    return points;
+    return cell;
   }
 
-  std::unordered_map<CellKey, Cell> cells_;
-  std::size_t groups_ = 0;
-  std::size_t largest_ = 0;
+  void join(std::size_t a, std::size_t b) {
+    a = root(a);
+    b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+  /// The cell beside it in its row and the three next to it in the following row.
+  void join_neighbours() {
+    std::size_t next_row = 0;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (i + 1 < cells_.size() && cells_[i + 1] == cells_[i] + 1) join(i, i + 1);
+      const CellKey first = cells_[i] + kRow - 1;
+      while (next_row < cells_.size() && cells_[next_row] < first) ++next_row;
+      for (std::size_t k = next_row; k < cells_.size() && cells_[k] <= first + 2; ++k) join(i, k);
+    }
+  }
+
+  std::vector<CellKey> cells_;
+  std::vector<std::size_t> parent_;
 };
 
 }  // namespace
@@ -83,20 +79,26 @@ std::vector<std::size_t> largest_piece(const PointCloud& cloud,
                                        const Plane& plane,
                                        double cell) {
   require(cell > 0, "the cell of a piece is ", cell, " m; give a length above 0");
-  const auto [axis_u, axis_v] = axes_of(plane);
+  const Eigen::Vector3d axis_u = plane.normal.unitOrthogonal() / cell;
+  const Eigen::Vector3d axis_v = plane.normal.cross(axis_u);
   std::vector<CellKey> keys;
   keys.reserve(indices.size());
   for (const std::size_t i : indices) {
     const Eigen::Vector3d x = cloud.points[i].cast<double>();
-    const auto step = [cell](double s) {
-      return static_cast<std::int64_t>(std::clamp(std::floor(s / cell), -2e9, 2e9));
-    };
-    keys.push_back(key_of(step(x.dot(axis_u)), step(x.dot(axis_v))));
+    keys.push_back(key_of(x.dot(axis_u), x.dot(axis_v)));
   }
-  const CellGroups groups(keys);
+  CellGroups groups(keys);
+  std::vector<std::size_t> group(indices.size());
+  std::vector<std::size_t> points(groups.cells(), 0);
+  for (std::size_t n = 0; n < indices.size(); ++n) {
+    group[n] = groups.group_of(keys[n]);
+    ++points[group[n]];
+  }
+  const auto largest =
+      static_cast<std::size_t>(std::max_element(points.begin(), points.end()) - points.begin());
   std::vector<std::size_t> piece;
   for (std::size_t n = 0; n < indices.size(); ++n) {
-    if (groups.in_largest(keys[n])) piece.push_back(indices[n]);
+    if (group[n] == largest) piece.push_back(indices[n]);
   }
   return piece;
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <facula/acquire/core/point_cloud.hpp>
+#include <facula/acquire/core/scan_grid.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -81,14 +83,23 @@ double angle_between(const Plane& a, const Plane& b);
 double distance_between(const PlaneFit& a, const PlaneFit& b);
 
 struct PlaneExtractionOptions {
-  double inlier_distance = 0.01;  ///< farthest point of a plane [m], above 0
-  std::size_t min_points = 500;   ///< smallest plane [1], at least 3
-  int max_planes = 12;            ///< [1], at least 1
-  int iterations = 2000;          ///< RANSAC trials per plane at most [1]
-  unsigned seed = 1;              ///< [1]
-  double max_gap = 0;  ///< parts of a surface nearer than this are one plane [m]; 0 = the larger of
-                       ///< 2 inlier distances and 8 times the points' own spacing there
+  /// Farthest point of a plane [m], above 0. None: default_inlier_distance(), or 3 sigma of the
+  /// point along its ray where that is more.
+  std::optional<double> inlier_distance;
+  std::size_t min_points = 500;  ///< smallest plane [1], at least 3
+  int max_planes = 12;           ///< [1], at least 1
+  int iterations = 2000;         ///< RANSAC trials per plane at most [1]
+  unsigned seed = 1;             ///< [1]
+
+  /// Parts of a surface nearer than this are one plane [m]; 0 = the larger of 2 inlier distances
+  /// and 8 times the points' own spacing there.
+  double max_gap = 0;
   double max_normal_angle = 0.6;  ///< between a point's normal and the plane's, if it has one [rad]
+
+  /// Planes whose points plainly bend by more than this from one side to the other are slices of a
+  /// round surface and left out [rad], above 0.
+  double max_bend = 0.12;
+  int num_threads = 0;  ///< 0 = all cores [1]
 
   void check() const;
 };
@@ -98,11 +109,20 @@ struct ExtractedPlane {
   std::vector<std::size_t> indices;  ///< of the cloud's points on this plane
 };
 
+/// Four times the noise of the surfaces, measured on small neighbourhoods of some points [m]: holds
+/// a noisy plane together and does not reach far round a bend. 1e-6 m at least.
+double default_inlier_distance(const PointCloud& cloud);
+
 /// Planes by RANSAC (Fischler and Bolles 1981), largest first, each refined by least squares over
-/// the inliers of its largest connected piece. The same seed gives the same planes. Thin dense
-/// clouds first, and choose inlier_distance at about three times the noise: below, a noisy surface
-/// falls apart into slices.
+/// the inliers of its largest connected piece. The same seed gives the same planes, whatever the
+/// number of threads. Normals, where the cloud has them, keep points of other surfaces out.
 std::vector<ExtractedPlane> extract_planes(const PointCloud& cloud,
                                            const PlaneExtractionOptions& options = {});
+
+/// Planes by growing regions over the scan grid from the flattest places on (Rabbani et al. 2006),
+/// each refined and judged as those of extract_planes(). No randomness; the cloud needs normals.
+std::vector<ExtractedPlane> grow_planes(const PointCloud& cloud,
+                                        const ScanGrid& grid,
+                                        const PlaneExtractionOptions& options = {});
 
 }  // namespace facula

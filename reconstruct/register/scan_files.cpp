@@ -6,9 +6,11 @@
 #include <facula/acquire/core/whole_file.hpp>
 #include <facula/reconstruct/filter/grid_normals.hpp>
 #include <facula/reconstruct/register/compressed_file.hpp>
+#include <facula/reconstruct/register/pan_tilt_list.hpp>
 #include <facula/reconstruct/register/scan_project_formats.hpp>
 
 #include <string_view>
+#include <utility>
 
 namespace facula {
 namespace {
@@ -44,6 +46,10 @@ PosedCloud read_scan_file(const std::filesystem::path& path) {
   scan.file = path;
   if (lower_extension(file.path()) == ".pcd") {
     read_pcd_scan(file.path(), scan);
+  } else if (is_pan_tilt_list(file.path())) {
+    PosedCloud list = posed_cloud(read_pan_tilt_list(file.path()));
+    scan.cloud = std::move(list.cloud);
+    scan.grid = std::move(list.grid);
   } else {
     scan.cloud = read_cloud(file.path(), &scan.grid);
     orient_grid(scan);

@@ -37,6 +37,7 @@ struct ScanProject {
 ///                        outside `min`..`max` of config.ini are dropped; turned to z up, metres;
 ///                        a scanNNN.3d file alone is one such scan
 ///   a single scan file   .pcd, .ply, .asc, .xyz: one scan, with its VIEWPOINT
+///   a list of ranges     .csv with the columns range_mm, pan_deg, tilt_deg (pan_tilt_list.hpp)
 /// Scan files may be compressed (.gz, .xz). Throws Error as the file readers do.
 ScanProject read_scan_project(const std::filesystem::path& path);
 
