@@ -64,18 +64,21 @@ class Alignment {
             const ScanPyramid& target,
             const RigidTransform& guess,
             const PairOptions& options)
-      : source_(source), target_(target), options_(options) {
+      : source_(source), target_(target), options_(options), finest_(finder_of(0)) {
     result_.target_from_source = guess;
     last_level_ = std::max(source.levels.size(), target.levels.size()) - 1;
     const std::size_t coarsest =
         std::min(last_level_, static_cast<std::size_t>(options.coarsest_level));
     bound_ = options.max_distance > 0 ? options.max_distance : 4 * voxel(coarsest);
-    for (std::size_t level = coarsest; level > 0; --level) settle(level);
-    settle(0);
+    for (std::size_t level = coarsest; level > 0; --level) {
+      PairFinder finder = finder_of(level);
+      settle(level, finder);
+    }
+    settle(0, finest_);
   }
 
   PairResult finished() {
-    const std::vector<PointPair> pairs = find(0);
+    const std::vector<PointPair> pairs = finest_.find(result_.target_from_source, bound_);
     require_overlap(pairs);
     const PairSystem system = assemble(pairs, options_);
     describe_fit(pairs);
@@ -98,20 +101,16 @@ class Alignment {
     return 2 * voxel(level);
   }
 
-  std::vector<PointPair> find(std::size_t level) const {
-    return find_pairs({source_level(level),
-                       target_level(level),
-                       source_.oriented && target_.oriented,
-                       bound_,
-                       options_},
-                      result_.target_from_source);
+  PairFinder finder_of(std::size_t level) const {
+    return {
+        source_level(level), target_level(level), source_.oriented && target_.oriented, options_};
   }
 
   /// Iterates on one level until the pose no longer changes much for it.
-  void settle(std::size_t level) {
+  void settle(std::size_t level, PairFinder& finder) {
     bool settled = false;
     while (!settled && result_.iterations < options_.max_iterations) {
-      const std::vector<PointPair> pairs = find(level);
+      const std::vector<PointPair> pairs = finder.find(result_.target_from_source, bound_);
       if (level > 0 && pairs.size() < kMinPairs) return;
       require_overlap(pairs);
       const PairSystem system = assemble(pairs, options_);
@@ -168,6 +167,7 @@ class Alignment {
   const ScanPyramid& source_;
   const ScanPyramid& target_;
   const PairOptions& options_;
+  PairFinder finest_;
   PairResult result_;
   std::size_t last_level_ = 0;
   double bound_ = 0;  // farthest correspondence [m]

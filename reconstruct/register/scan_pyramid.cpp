@@ -16,7 +16,7 @@ namespace facula {
 namespace {
 
 constexpr std::size_t kMinPoints = 12;
-constexpr double kVoxelPerSampling = 1.5;  // some two points share a voxel: noise is averaged
+constexpr double kVoxelPerSampling = 2;  // some two points share a voxel: noise is averaged
 
 PointCloud finite_points(const PosedCloud& scan) {
   std::vector<std::size_t> finite;
@@ -72,6 +72,17 @@ double voxel_of(const PointCloud& cloud, const std::string& name) {
   return voxel;
 }
 
+/// Thins the cloud; `merged` says how many scan points each of its points stands for, before and
+/// after. Sigmas of 1 carry the numbers through the thinning: n of them make a mean of 1 / sqrt(n).
+PointCloud thinned(const PointCloud& cloud, double voxel, std::vector<float>& merged) {
+  PointCloud counted{.points = cloud.points};
+  for (const float n : merged) counted.sigma.push_back(1 / std::sqrt(n));
+  counted = thin_by_voxel(counted, voxel);
+  merged.clear();
+  for (const float sigma : counted.sigma) merged.push_back(1 / (sigma * sigma));
+  return thin_by_voxel(cloud, voxel);
+}
+
 }  // namespace
 
 void PyramidOptions::check() const {
@@ -98,8 +109,9 @@ ScanPyramid build_pyramid(const PosedCloud& scan, const PyramidOptions& options)
   pyramid.diameter = diagonal(cloud);
   double voxel = options.finest_voxel > 0 ? options.finest_voxel : voxel_of(cloud, scan.name);
   const bool own_normals = !cloud.normals.empty();
+  std::vector<float> merged(cloud.size(), 1.0F);
   for (int level = 0; level < options.levels; ++level, voxel *= 2) {
-    cloud = thin_by_voxel(cloud, voxel);
+    cloud = thinned(cloud, voxel, merged);
     if (level > 0 && cloud.size() < kMinPoints) break;
     require(cloud.size() >= kMinPoints,
             "scan '",
@@ -114,7 +126,7 @@ ScanPyramid build_pyramid(const PosedCloud& scan, const PyramidOptions& options)
           cloud, {.neighbours = options.normal_neighbours, .num_threads = options.num_threads});
     }
     NearestNeighbours tree(cloud.points);
-    pyramid.levels.push_back({voxel, cloud, std::move(tree)});
+    pyramid.levels.push_back({voxel, cloud, std::move(tree), merged});
   }
   return pyramid;
 }

@@ -23,6 +23,7 @@ struct PyramidLevel {
   double voxel = 0;  ///< [m]
   PointCloud cloud;  ///< with normals; sigma and sensor origins where the scan has them
   NearestNeighbours tree;
+  std::vector<float> merged;  ///< scan points that each point is the mean of [1]
 };
 
 /// A scan made ready for registration, once for all the pairs it takes part in.

@@ -29,14 +29,15 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> slides_first(
   return sorted;
 }
 
-std::string triple(const Eigen::Vector3d& v) {
-  const auto two_digits = [](double x) { return number_text(std::round(100 * x) / 100 + 0.0); };
-  return "(" + two_digits(v.x()) + ", " + two_digits(v.y()) + ", " + two_digits(v.z()) + ")";
-}
-
-std::string triple_in_mm(const Eigen::Vector3d& v) {
-  const auto rounded = [](double x) { return number_text(std::round(1e4 * x) / 10 + 0.0); };
-  return "(" + rounded(v.x()) + ", " + rounded(v.y()) + ", " + rounded(v.z()) + ") mm";
+/// The three numbers in brackets, rounded to multiples of `step`.
+std::string triple(const Eigen::Vector3d& v, double step) {
+  std::string text = "(";
+  for (int i = 0; i < 3; ++i) {
+    if (i > 0) text += ", ";
+    text += number_text(std::round(v(i) / step) / std::round(1 / step) + 0.0);
+  }
+  text += ')';
+  return text;
 }
 
 }  // namespace
@@ -53,10 +54,11 @@ std::string motion_in_words(const Vector6& twist, const PairSystem& system) {
   const Eigen::Vector3d slide = twist.head<3>();
   const Eigen::Vector3d turn = twist.tail<3>() / system.radius;
   // Turning so little that the overlap's own points move eight times farther by the slide.
-  if (twist.tail<3>().norm() < 0.125) return "slides along " + triple(slide.normalized());
+  if (twist.tail<3>().norm() < 0.125) return "slides along " + triple(slide.normalized(), 0.01);
   // The axis of a screw motion lies where the velocity is along the turn (Chasles).
   const Eigen::Vector3d through = system.pivot + turn.cross(slide) / turn.squaredNorm();
-  return "turns about " + triple(turn.normalized()) + " through " + triple_in_mm(through);
+  return "turns about " + triple(turn.normalized(), 0.01) + " through " +
+         triple(1000 * through, 0.1) + " mm";
 }
 
 }  // namespace facula
