@@ -73,6 +73,19 @@ std::vector<double> intensity_of(const CsvTable& table) {
   return values;
 }
 
+void append_points(PanTiltList& to, const PanTiltList& from, std::size_t first, std::size_t end) {
+  const auto copy = [first, end](std::vector<double>& target, const std::vector<double>& source) {
+    if (source.empty()) return;
+    target.insert(target.end(),
+                  source.begin() + static_cast<std::ptrdiff_t>(first),
+                  source.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  copy(to.range, from.range);
+  copy(to.pan, from.pan);
+  copy(to.tilt, from.tilt);
+  copy(to.intensity, from.intensity);
+}
+
 }  // namespace
 
 bool is_pan_tilt_list(const std::filesystem::path& path) {
@@ -127,6 +140,20 @@ PosedCloud posed_cloud(const PanTiltList& list, double tilt_zero) {
   cloud.sensor_origin.assign(cloud.size(), Eigen::Vector3f::Zero());
   scan.grid = grid_of(list);
   return scan;
+}
+
+PanTiltSweeps sweeps_of(const PanTiltList& list) {
+  PanTiltSweeps sweeps;
+  const std::vector<std::size_t> starts = run_starts(list);
+  for (std::size_t run = 0; run + 1 < starts.size(); ++run) {
+    const std::size_t first = starts[run];
+    const std::size_t end = starts[run + 1];
+    // Most steps decide: a list may carry the last point of the sweep before at its head.
+    std::ptrdiff_t rises = 0;
+    for (std::size_t i = first + 1; i < end; ++i) rises += list.tilt[i] > list.tilt[i - 1] ? 1 : -1;
+    append_points(rises >= 0 ? sweeps.rising : sweeps.falling, list, first, end);
+  }
+  return sweeps;
 }
 
 }  // namespace facula

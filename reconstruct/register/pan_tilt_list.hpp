@@ -32,4 +32,12 @@ PanTiltList read_pan_tilt_list(const std::filesystem::path& path);
 /// step of tilt; it is empty where tilt has no common step.
 PosedCloud posed_cloud(const PanTiltList& list, double tilt_zero = 0);
 
+/// The sweeps of a list by the way the tilt axis moved. What its gears have of play shows between
+/// the two, not within one.
+struct PanTiltSweeps {
+  PanTiltList rising;   ///< tilt grows from point to point
+  PanTiltList falling;  ///< empty for a scanner that measures on one way only
+};
+PanTiltSweeps sweeps_of(const PanTiltList& list);
+
 }  // namespace facula

@@ -48,6 +48,22 @@ TEST(PanTiltList, MakesAGridOfSweepsThatGoUpAndDown) {
   EXPECT_EQ(scan.grid.point[scan.grid.index(2, 2)], 8);
 }
 
+TEST(PanTiltSweeps, ArePartedByTheWayTheAxisMoved) {
+  PanTiltList list;
+  for (const double pan : {0.0, 0.1, 0.2}) {
+    for (int i = 0; i < 5; ++i) {
+      list.range.push_back(1 + pan);
+      list.pan.push_back(pan);
+      list.tilt.push_back(pan == 0.1 ? 2 - 0.1 * i : 1 + 0.1 * i);
+    }
+  }
+  list.tilt[10] = 3;  // the end of the sweep before
+  const PanTiltSweeps sweeps = sweeps_of(list);
+  EXPECT_EQ(sweeps.rising.size(), 10U);
+  EXPECT_EQ(sweeps.falling.range, std::vector<double>(5, 1.1));
+  EXPECT_TRUE(sweeps_of({}).rising.range.empty());
+}
+
 TEST(PanTiltList, IsReadAsAScanOfAProject) {
   const TemporaryFolder folder;
   const auto file = folder.write("corner.csv", "range_m,pan_rad,tilt_rad\n1,0,1\n1,0,2\n2,1,1\n");
