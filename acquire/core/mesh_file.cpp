@@ -14,9 +14,10 @@ TriangleMesh read_by_extension(const std::filesystem::path& path) {
   if (extension == ".ply") return read_ply_mesh(path);
   if (extension == ".obj") return read_obj_mesh(path);
   if (extension == ".stl") return read_stl_mesh(path);
+  if (extension == ".off") return read_off_mesh(path);
   fail("cannot read a mesh from '",
        path.string(),
-       "': expected a name that ends in .ply, .obj or .stl");
+       "': expected a name that ends in .ply, .obj, .stl or .off");
 }
 
 void check_unit(double unit) {
@@ -80,9 +81,14 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, dou
   if (extension == ".ply") return write_ply_mesh(path, in_unit);
   if (extension == ".obj") return write_obj_mesh(path, in_unit);
   if (extension == ".stl") return write_stl_mesh(path, in_unit);
+  if (extension == ".off") return write_off_mesh(path, in_unit);
+  if (extension == ".glb") {
+    require(unit == 1.0, "glTF files are in metres; leave the unit out for '", path.string(), "'");
+    return write_glb_mesh(path, mesh);
+  }
   fail("cannot write a mesh to '",
        path.string(),
-       "': expected a name that ends in .ply, .obj or .stl");
+       "': expected a name that ends in .ply, .obj, .stl, .off or .glb");
 }
 
 void add_fan(TriangleMesh& mesh,

@@ -14,10 +14,14 @@ namespace facula {
 TriangleMesh read_ply_mesh(const std::filesystem::path& path);
 TriangleMesh read_obj_mesh(const std::filesystem::path& path);
 TriangleMesh read_stl_mesh(const std::filesystem::path& path);
+TriangleMesh read_off_mesh(const std::filesystem::path& path);
 
 void write_ply_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 void write_obj_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 void write_stl_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+void write_off_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+/// Binary glTF: metres, turned to y up, colours in linear light, as the format asks.
+void write_glb_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 /// Adds a polygon as a fan of triangles around its first corner. Throws Error naming the file when
 /// it has fewer than three corners.

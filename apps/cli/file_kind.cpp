@@ -75,14 +75,16 @@ FileKind file_kind(const fs::path& path) {
   if (extension == ".ply") {
     return header_number(path, "element face") > 0 ? FileKind::kMesh : FileKind::kCloud;
   }
-  if (extension == ".obj" || extension == ".stl") return FileKind::kMesh;
+  for (const char* mesh : {".obj", ".stl", ".off", ".glb"}) {
+    if (extension == mesh) return FileKind::kMesh;
+  }
   if (extension == ".bt" || extension == ".ot") return FileKind::kMap;
   if (extension == ".yaml" || extension == ".yml") return FileKind::kGrid;
   for (const char* points : {".asc", ".xyz", ".txt", ".csv", ".3d"}) {
     if (extension == points) return FileKind::kCloud;
   }
   fail(
-      "expected a file that facula reads (.toml, .flog, .pcd, .ply, .asc, .xyz, .obj, .stl, .bt, "
+      "expected a file that facula reads (.toml, .flog, .pcd, .ply, .asc, .xyz, .obj, .stl, .off, .glb, .bt, "
       ".ot, "
       ".yaml, .conf or a folder), got '",
       path.string(),

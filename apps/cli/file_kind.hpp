@@ -15,7 +15,7 @@ enum class FileKind {
   kProject,  ///< poses.toml, *.conf, or a folder of 3DTK scans
   kScan,     ///< organised .pcd
   kCloud,    ///< points without a grid
-  kMesh,     ///< .ply with faces, .obj, .stl
+  kMesh,     ///< .ply with faces, .obj, .stl, .off, .glb
   kMap,      ///< .bt, .ot
   kGrid      ///< .yaml beside a .pgm
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/capture/capture_file.hpp>
 #include <facula/acquire/core/cloud_file.hpp>
-#include <facula/acquire/core/mesh_file.hpp>
 #include <facula/acquire/core/scan_file.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
 #include <facula/acquire/simulate/scene.hpp>
@@ -11,6 +10,7 @@
 #include <facula/apps/commands/log_figures.hpp>
 #include <facula/apps/commands/map_figures.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
+#include <facula/reconstruct/mesh/mesh_exchange.hpp>
 
 #include <memory>
 
@@ -55,7 +55,7 @@ void run(const InfoArguments& a, Session& session) {
     case FileKind::kCloud:
       return describe(read_cloud(a.file), figures);
     case FileKind::kMesh:
-      return describe(read_mesh(a.file), figures);
+      return describe(read_any_mesh(a.file), figures);
     case FileKind::kMap:
       return report_map(OccupancyMap::read(a.file), figures);
     case FileKind::kGrid:

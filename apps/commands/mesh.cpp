@@ -7,10 +7,12 @@
 #include <facula/apps/commands/distance_figures.hpp>
 #include <facula/apps/commands/mesh.hpp>
 #include <facula/apps/commands/mesh_figures.hpp>
+#include <facula/apps/commands/mesh_steps.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
-#include <facula/reconstruct/filter/cloud_filters.hpp>
-#include <facula/reconstruct/filter/sampling_distance.hpp>
+#include <facula/reconstruct/filter/outlier_filters.hpp>
 #include <facula/reconstruct/filter/scan_filters.hpp>
+#include <facula/reconstruct/mesh/mesh_exchange.hpp>
+#include <facula/reconstruct/mesh/mesh_method.hpp>
 #include <facula/reconstruct/mesh/meshing.hpp>
 
 #include <memory>
@@ -21,40 +23,50 @@ namespace {
 struct MeshArguments {
   std::vector<std::filesystem::path> scans;
   std::vector<std::filesystem::path> out;
-  std::string method = "advancing-front";
+  std::string method = "auto";
   double voxel = 0;     ///< 0 = chosen from the sampling [m]
   double max_edge = 0;  ///< 0 = the method's own [m]
   bool no_filter = false;
+  MeshStepArguments steps;
   std::filesystem::path compare;
+};
+
+/// A mesh with the points it was made of and the voxel of its volume (0 where there was none).
+struct Made {
+  TriangleMesh mesh;
+  PointCloud cloud;
+  double voxel = 0;
 };
 
 void declare(Arguments& arguments, MeshArguments& a) {
   arguments.inputs("SCANS", a.scans, "a scan, several, or a project (poses.toml, .conf, folder)");
   arguments.required();
-  arguments.outputs("--out", a.out, "the mesh: .ply, .obj or .stl");
+  arguments.outputs("--out", a.out, "the mesh: .ply, .obj, .stl, .off or .glb");
   arguments.required();
-  arguments.choice("--method",
-                   a.method,
-                   {"advancing-front", "grid"},
-                   "advancing-front: a surface through all points; grid: along rows and columns of "
-                   "one scan");
+  arguments.choice(
+      "--method",
+      a.method,
+      {"auto", "volumetric", "poisson", "advancing-front", "scale-space", "alpha-wrap", "grid"},
+      "auto chooses by what the scans hold and says why; grid: along rows and columns "
+      "of one scan");
   arguments.number("--voxel-mm",
                    a.voxel,
                    kMillimetres,
-                   "thin the points to this first, 0 = half the step from stripe to stripe where "
-                   "that is coarse");
+                   "edge of the volume's voxels, or what the points are thinned to; 0 = from the "
+                   "sampling");
   arguments.number(
       "--max-edge-mm", a.max_edge, kMillimetres, "longest edge, 0 = chosen from the points");
   arguments.flag("--no-filter", a.no_filter, "keep mixed points and outliers");
+  declare_mesh_steps(arguments, a.steps);
   arguments.input("--compare", a.compare, "a reference mesh in metres: report distances to it");
 }
 
-TriangleMesh grid_mesh(const MeshArguments& a, Figures& figures) {
+Made grid_mesh(const MeshArguments& a, Figures& figures) {
   require(a.scans.size() == 1 && file_kind(a.scans.front()) == FileKind::kScan,
           "expected one scan with a grid (.pcd of 'facula extract') for --method grid, got '",
           a.scans.front().string(),
           a.scans.size() > 1 ? "' and more" : "'",
-          "; use --method advancing-front");
+          "; use --method auto");
   PolarScan scan = read_scan(a.scans.front());
   require_surface(scan.valid_count(), stripes_of(scan), a.scans.front());
   figures.count("points", "points", scan.valid_count());
@@ -63,41 +75,62 @@ TriangleMesh grid_mesh(const MeshArguments& a, Figures& figures) {
   }
   GridMeshOptions options;
   if (a.max_edge > 0) options.max_edge = a.max_edge;
-  return transformed(mesh_grid(scan, options), scan.world_from_scan);
+  return {transformed(mesh_grid(scan, options), scan.world_from_scan),
+          transformed(cloud_from_scan(scan), scan.world_from_scan),
+          0};
 }
 
-PointCloud cleaned_cloud(const MeshArguments& a, Session& session) {
-  session.step("reading and filtering", 1, 3);
-  const PosedScans scans = read_posed_scans(a.scans, !a.no_filter);
+/// Scans as the volume takes them, or one outlier-free cloud for the methods that join points.
+ScanProject cleaned_scans(const MeshArguments& a, Session& session) {
+  session.step("reading and filtering", 1, 4);
+  PosedScans scans = read_posed_scans(a.scans, !a.no_filter);
   require_surface(scans.points_read, scans.stripes, a.scans.front());
-  PointCloud cloud = scans.project.fused();
   session.figures.count("points", "points", scans.points_read);
   if (!a.no_filter) {
-    const std::size_t before = cloud.size();
-    cloud = selected(cloud, statistical_inliers(cloud));
     session.figures.count("mixed_removed", "mixed points removed", scans.mixed_removed);
-    session.figures.count("outliers_removed", "outliers removed", before - cloud.size());
   }
-  // Points dense along the stripe and far from stripe to stripe would make slivers.
-  if (const double voxel = a.voxel > 0 ? a.voxel : evening_voxel(cloud); voxel > 0) {
-    cloud = thin_by_voxel(cloud, voxel);
-    session.figures.number("voxel_mm", "points thinned to", 1000 * voxel, 3);
-    session.figures.count("thinned_points", "points after thinning", cloud.size());
-  }
-  return cloud;
+  return std::move(scans.project);
 }
 
-TriangleMesh make_mesh(const MeshArguments& a, Session& session) {
+MeshMethod chosen_method(const MeshArguments& a, const ScanProject& project, Figures& figures) {
+  if (a.method != "auto") return mesh_method(a.method);
+  const MethodChoice choice = choose_method(project);
+  figures.text("method_reason", "method chosen", choice.reason);
+  return choice.method;
+}
+
+/// The volume weighs outliers down by itself; methods that join points would run through them.
+ScanProject without_outliers(const ScanProject& project, Figures& figures) {
+  const PointCloud cloud = project.fused();
+  ScanProject result;
+  result.scans.emplace_back();
+  result.scans.front().cloud = selected(cloud, statistical_inliers(cloud));
+  figures.count(
+      "outliers_removed", "outliers removed", cloud.size() - result.scans.front().cloud.size());
+  return result;
+}
+
+Made make_mesh(const MeshArguments& a, Session& session) {
   if (a.method == "grid") return grid_mesh(a, session.figures);
-  const PointCloud cloud = cleaned_cloud(a, session);
-  session.step("meshing " + std::to_string(cloud.size()) + " points", 2, 3);
-  AdvancingFrontOptions options;
-  options.max_edge = a.max_edge;
-  return mesh_advancing_front(cloud, options);
+  ScanProject project = cleaned_scans(a, session);
+  const MeshMethod method = chosen_method(a, project, session.figures);
+  session.figures.text("method", "method", to_string(method));
+  const bool joins_points = method != MeshMethod::kVolumetric;
+  if (joins_points && !a.no_filter) project = without_outliers(project, session.figures);
+  session.step("meshing by " + to_string(method), 2, 4);
+  MeshedScans meshed =
+      mesh_scans(project,
+                 method,
+                 {.voxel = a.voxel, .max_edge = a.max_edge, .num_threads = session.num_threads});
+  if (meshed.voxel > 0) {
+    session.figures.number(
+        "voxel_mm", joins_points ? "points thinned to" : "voxel", 1000 * meshed.voxel, 3);
+  }
+  return {std::move(meshed.mesh), project.fused(), joins_points ? 0 : meshed.voxel};
 }
 
 void run(const MeshArguments& a, Session& session) {
-  for (const auto& path : a.out) check_output(path, {".ply", ".obj", ".stl"});
+  for (const auto& path : a.out) check_output(path, {".ply", ".obj", ".stl", ".off", ".glb"});
   require(a.voxel >= 0 && a.max_edge >= 0,
           "expected --voxel-mm and --max-edge-mm of 0 or more, "
           "got ",
@@ -105,39 +138,47 @@ void run(const MeshArguments& a, Session& session) {
           " and ",
           1000 * a.max_edge,
           "; leave them out for the defaults");
+  check_mesh_steps(a.steps);
   // A reference that cannot be read shall not come to light after minutes of meshing.
   TriangleMesh reference;
-  if (!a.compare.empty()) reference = read_mesh(a.compare);
-  const TriangleMesh mesh = make_mesh(a, session);
-  require(!mesh.empty(),
+  if (!a.compare.empty()) reference = read_any_mesh(a.compare);
+  Made made = make_mesh(a, session);
+  require(!made.mesh.empty(),
           "expected a surface through the points, got no triangle; try a larger "
           "--max-edge-mm");
-  for (const auto& path : a.out) write_mesh(path, mesh);
-  report_mesh(mesh, session.figures);
-  if (!a.compare.empty()) {
-    session.step("comparing", 3, 3);
-    report_distances(distances_to_mesh(mesh.vertices, reference),
-                     session.figures.part("compare", "Distance of vertices to the reference:"));
-  }
+  session.step("cleaning and judging", 3, 4);
+  const MeshVerdict verdict =
+      run_mesh_steps(made.mesh, made.cloud, made.voxel, a.steps, session.figures);
+  for (const auto& path : a.out) write_mesh(path, made.mesh);
+  report_verdict(verdict, session.figures);
+  if (a.compare.empty()) return;
+  session.step("comparing", 4, 4);
+  report_distances(distances_to_mesh(made.mesh.vertices, reference),
+                   session.figures.part("compare", "Distance of vertices to the reference:"));
+  report_distances(distances_to_mesh(reference.vertices, made.mesh),
+                   session.figures.part("compare_back", "Distance of the reference's vertices:"));
 }
 
 }  // namespace
 
 Command mesh_command() {
   const auto a = std::make_shared<MeshArguments>();
-  return {.name = "mesh",
-          .summary = "make a triangle mesh of scans",
-          .description =
-              "Removes mixed points and outliers, evens out the sampling, lays a surface "
-              "through them, and says how large and how closed it is. Points are not moved.",
-          .examples = {"facula simulate data/scenes/turntable_object.toml --rig "
-                       "data/rigs/ciclop_turntable.toml --step-deg 10 --out object",
-                       "facula extract object --out object.pcd",
-                       "facula mesh object.pcd --voxel-mm 2 --out object.ply --out object.stl",
-                       "facula mesh object.pcd --method grid --max-edge-mm 20 --out grid.ply "
-                       "--compare object.ply"},
-          .declare = [a](Arguments& arguments) { declare(arguments, *a); },
-          .run = [a](Session& session) { run(*a, session); }};
+  return {
+      .name = "mesh",
+      .summary = "make a triangle mesh of scans",
+      .description =
+          "Removes mixed points and outliers, lays a surface through or between the points by the "
+          "method that suits them, cleans it, and says what the mesh is worth: closed or its "
+          "boundary loops, manifold, self-intersections, volume, distance of the points.",
+      .examples = {"facula simulate data/scenes/turntable_object.toml --rig "
+                   "data/rigs/ciclop_turntable.toml --step-deg 10 --out object",
+                   "facula extract object --out object.pcd",
+                   "facula mesh object.pcd --out object.ply --out object.glb",
+                   "facula mesh object.pcd --watertight --max-error-mm 0.5 --out closed.stl",
+                   "facula mesh object.pcd --method grid --max-edge-mm 20 --out grid.ply "
+                   "--compare closed.stl"},
+      .declare = [a](Arguments& arguments) { declare(arguments, *a); },
+      .run = [a](Session& session) { run(*a, session); }};
 }
 
 }  // namespace facula

@@ -3,10 +3,12 @@
 
 #include <facula/acquire/core/triangle_mesh.hpp>
 #include <facula/apps/cli/figures.hpp>
+#include <facula/reconstruct/mesh/mesh_verdict.hpp>
 
 namespace facula {
 
-/// What a mesh is made of and how closed it is, the same wherever a command speaks of a mesh.
+/// The verdict on a mesh, the same wherever a command speaks of a mesh.
 void report_mesh(const TriangleMesh& mesh, Figures& figures);
+void report_verdict(const MeshVerdict& verdict, Figures& figures);
 
 }  // namespace facula

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/capture/capture_file.hpp>
 #include <facula/acquire/core/error.hpp>
-#include <facula/acquire/core/mesh_file.hpp>
 #include <facula/acquire/core/scan_file.hpp>
 #include <facula/apps/cli/file_kind.hpp>
 #include <facula/apps/cli/output_path.hpp>
@@ -10,6 +9,7 @@
 #include <facula/apps/commands/report_sections.hpp>
 #include <facula/apps/report/report_pictures.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
+#include <facula/reconstruct/mesh/mesh_exchange.hpp>
 
 #include <memory>
 #include <utility>
@@ -84,7 +84,7 @@ Report make_report(const ReportArguments& a, Session& session) {
   session.step("mesh", 4, kSteps);
   if (!a.mesh.empty()) {
     report.sections.push_back(
-        mesh_section(a.mesh.filename().string(), read_mesh(a.mesh), session.num_threads));
+        mesh_section(a.mesh.filename().string(), read_any_mesh(a.mesh), session.num_threads));
   }
   session.step("maps", 5, kSteps);
   if (!a.map.empty()) {
