@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -67,6 +68,12 @@ Measured measured_angle(const PlaneFit& a, const PlaneFit& b, const RelationOpti
   }
   angle.sigma = std::sqrt(variance);
   return angle;
+}
+
+Measured measured_corner(const PlaneFit& a, const PlaneFit& b, const RelationOptions& options) {
+  Measured corner = measured_angle(a, b, options);
+  if (a.plane.normal.dot(b.plane.normal) > 0) corner.value = std::numbers::pi - corner.value;
+  return corner;
 }
 
 Measured measured_distance(const PlaneFit& a, const PlaneFit& b, const RelationOptions& options) {

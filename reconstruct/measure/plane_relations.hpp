@@ -27,6 +27,11 @@ struct RelationOptions {
 /// the planes open, so sigma then holds both ways.
 Measured measured_angle(const PlaneFit& a, const PlaneFit& b, const RelationOptions& options = {});
 
+/// Angle of the corner or edge that two planes seen from the frame's origin make [rad], in [0, pi]:
+/// what a bevel laid against both reads, above pi/2 where it is blunt. Needs normals that point
+/// away from the origin, as fit_plane() turns them.
+Measured measured_corner(const PlaneFit& a, const PlaneFit& b, const RelationOptions& options = {});
+
 /// Distance of b's centroid from plane a [m], unsigned: the distance of parallel planes, a step's
 /// height. Its sigma grows with the tilt of a where b lies beside a's points.
 Measured measured_distance(const PlaneFit& a,

@@ -172,6 +172,19 @@ TEST(MeasuredAngle, KnowsExactAnglesOfExactPlanes) {
   EXPECT_EQ(measured_angle(a, a).sigma, 0);
 }
 
+TEST(MeasuredCorner, IsBluntWhereTheWallsOpenWide) {
+  // Two walls of a room seen from inside, 100 degrees between them.
+  PlaneFit a;
+  a.plane = {Eigen::Vector3d::UnitX(), 2};
+  for (const double opening : {100.0, 80.0, 90.0}) {
+    PlaneFit b;
+    const double turn = (180 - opening) * kDegree;
+    b.plane = {Eigen::Vector3d(std::cos(turn), std::sin(turn), 0), 1};
+    EXPECT_NEAR(measured_corner(a, b).value, opening * kDegree, 1e-12);
+    EXPECT_NEAR(measured_corner(b, a).value, opening * kDegree, 1e-12);
+  }
+}
+
 TEST(PlaneRelations, RefuseWhatMakesNoSense) {
   const PlaneFit fit;
   EXPECT_NE(error_of([&] {
