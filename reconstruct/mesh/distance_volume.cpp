@@ -155,4 +155,31 @@ void DistanceVolume::add(const RangeSurface& surface) {
       touched.size(), fill, {.num_threads = options_.num_threads, .chunk = kBricksPerChunk});
 }
 
+std::vector<std::uint64_t> bricks_of(const RangeSurface& surface,
+                                     const DistanceVolumeOptions& options) {
+  check_extent(surface, options.voxel);
+  const auto truncation = static_cast<float>(options.truncation / options.voxel);
+  const std::size_t count = surface.triangles.size();
+  std::vector<std::vector<std::uint64_t>> parts(count / kTrianglesPerChunk + 1);
+  const double most = options.max_memory / sizeof(std::uint64_t);
+  const auto list = [&](std::size_t begin, std::size_t end) {
+    auto& out = parts[begin / kTrianglesPerChunk];
+    for (std::size_t t = begin; t < end; ++t) {
+      const SightPrism prism(surface, surface.triangles[t], options.voxel, truncation);
+      if (!prism.usable()) continue;
+      const double after = static_cast<double>(out.size()) + prism.bricks_at_most();
+      if (after > most) fail_for_memory(after * sizeof(std::uint64_t), options);
+      prism.visit_bricks([&out](const BrickPlace& place) { out.push_back(brick_key(place)); });
+    }
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+  };
+  parallel_for(count, list, {.num_threads = options.num_threads, .chunk = kTrianglesPerChunk});
+  std::vector<std::uint64_t> keys;
+  for (const auto& part : parts) keys.insert(keys.end(), part.begin(), part.end());
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  return keys;
+}
+
 }  // namespace facula

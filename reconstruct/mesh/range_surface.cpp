@@ -9,9 +9,11 @@
 namespace facula {
 namespace {
 
-bool has_finite_points(const PointCloud& cloud) {
-  return std::any_of(
-      cloud.points.begin(), cloud.points.end(), [](const auto& p) { return p.allFinite(); });
+/// A triangle, and a normal, need three.
+bool has_three_points(const PointCloud& cloud) {
+  return std::count_if(cloud.points.begin(), cloud.points.end(), [](const auto& p) {
+           return p.allFinite();
+         }) >= 3;
 }
 
 /// Towards the sensor where its place is known, else along the normal.
@@ -59,7 +61,7 @@ RangeSurface range_surface(const PosedCloud& scan, const RangeSurfaceOptions& op
           "the pose of scan '",
           scan.name,
           "' holds a number that is not finite; register the scan or leave it out");
-  if (!has_finite_points(scan.cloud)) {
+  if (!has_three_points(scan.cloud)) {
     return {.vertices = {}, .triangles = {}, .step = 0, .skipped_points = scan.cloud.size()};
   }
   const bool gridded = !scan.grid.empty();

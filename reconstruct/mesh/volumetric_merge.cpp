@@ -4,9 +4,10 @@
 #include <facula/reconstruct/mesh/range_surface.hpp>
 #include <facula/reconstruct/mesh/surface_extraction.hpp>
 #include <facula/reconstruct/mesh/volumetric_merge.hpp>
+#include <facula/reconstruct/mesh/volumetric_scale.hpp>
 
-#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace facula {
@@ -16,28 +17,15 @@ std::vector<RangeSurface> surfaces_of(const ScanProject& project,
                                       const VolumetricOptions& options) {
   std::vector<RangeSurface> surfaces;
   for (const PosedCloud& scan : project.scans) {
-    surfaces.push_back(range_surface(scan,
-                                     {.max_incidence = options.max_incidence,
-                                      .border_cells = options.border_cells,
-                                      .num_threads = options.num_threads}));
+    surfaces.push_back(range_surface(scan, range_surface_options(options)));
   }
   return surfaces;
 }
 
-/// Median over the scans of their sampling.
-double voxel_from(const std::vector<RangeSurface>& surfaces) {
+std::vector<double> steps_of(const std::vector<RangeSurface>& surfaces) {
   std::vector<double> steps;
-  for (const RangeSurface& s : surfaces) {
-    if (!s.triangles.empty()) steps.push_back(s.step);
-  }
-  require(!steps.empty(),
-          "none of the ",
-          surfaces.size(),
-          " scans has a surface: a piece of one needs three neighbouring points with a line of "
-          "sight");
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  for (const RangeSurface& s : surfaces) steps.push_back(s.triangles.empty() ? 0 : s.step);
+  return steps;
 }
 
 }  // namespace
@@ -67,9 +55,9 @@ VolumetricResult merge_volumetric(const ScanProject& project, const VolumetricOp
   options.check();
   const std::vector<RangeSurface> surfaces = surfaces_of(project, options);
   VolumetricResult result;
-  const double sampled = voxel_from(surfaces);
-  result.voxel = options.voxel > 0 ? options.voxel : sampled;
-  result.truncation = options.truncation > 0 ? options.truncation : 3 * result.voxel;
+  const VolumetricScale scale = volumetric_scale(options, steps_of(surfaces));
+  result.voxel = scale.voxel;
+  result.truncation = scale.truncation;
   DistanceVolume volume({.voxel = result.voxel,
                          .truncation = result.truncation,
                          .max_memory = options.max_memory,
@@ -82,8 +70,7 @@ VolumetricResult merge_volumetric(const ScanProject& project, const VolumetricOp
   }
   result.bricks = volume.size();
   result.mesh =
-      extract_surface(
-          volume, {.max_jump = 2, .cells_from = std::nullopt, .num_threads = options.num_threads})
+      extract_surface(volume, {.cells_from = std::nullopt, .num_threads = options.num_threads})
           .mesh;
   return result;
 }
