@@ -10,7 +10,7 @@ namespace facula {
 
 struct FeatureCandidateOptions {
   std::uint64_t seed = 1;  ///< [1]
-  int neighbours = 5;      ///< features matched with each, both ways [1]
+  int neighbours = 8;      ///< features matched with each, both ways [1]
   int trials = 20000;      ///< pairs of matches drawn [1]
   int kept = 256;          ///< best poses kept [1]
   int num_threads = 0;     ///< 0 = all cores [1]

@@ -88,7 +88,7 @@ GlobalFeatures find_global_features(const ScanPyramid& scan, const GlobalFeature
   result.features = fpfh_features(
       result.cloud, {.radius = kFeatureRadius * result.voxel, .num_threads = options.num_threads});
   result.tree = tree_of(result.features);
-  if (options.planes) result.planes = room_planes(result.cloud, result.voxel);
+  if (options.planes) result.planes = room_planes(scan, options.num_threads);
   const PyramidLevel& finest = scan.levels.front();
   result.view = ScanView(finest.cloud, finest.voxel);
   return result;

@@ -13,9 +13,10 @@ namespace facula {
 namespace {
 
 constexpr int kMostPlanes = 9;
-constexpr double kPlaneShare = 0.03;   // of the scan's points, for a plane to count [1]
+constexpr double kPlaneShare = 0.02;   // of the scan's points, for a plane to count [1]
 constexpr double kRoomShare = 0.4;     // of the scan's points on planes, to be a room [1]
-constexpr double kInlierVoxels = 0.3;  // distance from the plane [voxels]
+constexpr double kInlierVoxels = 0.5;  // distance from the plane [voxels]
+constexpr std::size_t kPoints = 4000;  // among which planes are looked for, at least [1]
 constexpr double kMinVolume = 0.3;     // of the box that three unit normals span [1]
 constexpr std::size_t kSamples = 256;  // points by which a pose is judged
 
@@ -68,17 +69,28 @@ RigidTransform pose_of(const Eigen::Matrix3d& s,
   return {Eigen::Quaterniond(rotation).normalized(), t.inverse() * farther};
 }
 
+/// The coarsest level with enough points, or the finest.
+const PyramidLevel& level_for(const ScanPyramid& scan) {
+  for (auto level = scan.levels.rbegin(); level != scan.levels.rend(); ++level) {
+    if (level->cloud.size() >= kPoints) return *level;
+  }
+  return scan.levels.front();
+}
+
 }  // namespace
 
-std::vector<Plane> room_planes(const PointCloud& cloud, double voxel) {
+std::vector<Plane> room_planes(const ScanPyramid& scan, int num_threads) {
+  const PyramidLevel& level = level_for(scan);
+  const PointCloud& cloud = level.cloud;
   const auto least = static_cast<std::size_t>(kPlaneShare * static_cast<double>(cloud.size()));
-  if (least < 12) return {};
+  if (least < 12 || cloud.normals.empty()) return {};
   const auto found = extract_planes(cloud,
-                                    {.inlier_distance = kInlierVoxels * voxel,
+                                    {.inlier_distance = kInlierVoxels * level.voxel,
                                      .min_points = least,
                                      .max_planes = kMostPlanes,
                                      .iterations = 500,
-                                     .max_gap = 3 * voxel});
+                                     .max_gap = 4 * level.voxel,
+                                     .num_threads = num_threads});
   std::vector<Plane> planes;
   std::size_t on_planes = 0;
   for (const ExtractedPlane& extracted : found) {

@@ -8,9 +8,10 @@
 
 namespace facula {
 
-/// The large planes of a scan thinned to `voxel` [m], largest first, normals to the side that was
-/// seen. None where planes do not make up at least two fifths of the scan: it is no room.
-std::vector<Plane> room_planes(const PointCloud& cloud, double voxel);
+/// The large planes of a scan, largest first, normals to the side that was seen, from a level of
+/// the pyramid that has some thousand points. None where planes do not make up two fifths of the
+/// scan: it is no room. Zero threads means all cores.
+std::vector<Plane> room_planes(const ScanPyramid& scan, int num_threads);
 
 struct PlaneTripleOptions {
   std::uint64_t seed = 1;   ///< of the points by which poses are judged [1]

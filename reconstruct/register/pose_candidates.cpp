@@ -15,8 +15,10 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr float kMeetVoxels = 1.5F;     // a point this near, along the normal, lies on the other
-constexpr float kMinCosine = 0.8F;      // of the angle between two normals that agree
+constexpr float kMeetVoxels = 1.0F;  // a point this near, along the normal, lies on the other
+constexpr float kMinCosine = 0.8F;   // of the angle between two normals that agree
+constexpr double kOffWeight = 0.5;
+constexpr double kFreeWeight = 2;
 constexpr double kFreeVoxels = 2.5;     // in front of the surface by this: in free space
 constexpr double kSameRotation = 0.21;  // [rad]
 constexpr double kSameShift = 2;        // [voxels]
@@ -44,7 +46,10 @@ struct Motion {
 
 struct Tally {
   int meet = 0;
-  int free = 0;
+  int off = 0;   // near the other scan's points, but off its surface or turned away from it
+  int free = 0;  // where the other scan looked through
+
+  double score() const { return meet - kOffWeight * off - kFreeWeight * free; }
 };
 
 void judge(const GlobalFeatures& from,
@@ -57,10 +62,12 @@ void judge(const GlobalFeatures& from,
   if (near != NearestGrid::kNone) {
     const Eigen::Vector3f& normal = to.cloud.normals[near];
     const float off = std::abs(normal.dot(x - to.cloud.points[near]));
+    const bool turned = normal.dot(motion.rotation * from.cloud.normals[point]) < kMinCosine;
     if (off < kMeetVoxels * static_cast<float>(to.voxel)) {
-      if (normal.dot(motion.rotation * from.cloud.normals[point]) > kMinCosine) ++tally.meet;
+      ++(turned ? tally.off : tally.meet);
       return;
     }
+    ++tally.off;
   }
   if (to.view.at(x.cast<double>(), kFreeVoxels * to.voxel) == Seen::kFree) ++tally.free;
 }
@@ -87,11 +94,11 @@ double PoseSampler::score(const RigidTransform& target_from_source, double least
       judge(from, points[i], motion, to, tally);
       // An eighth of the points is enough to see that a pose is far below the least.
       if (i + 1 == points.size() / 8 &&
-          tally.meet - 2 * tally.free < 0.4 * least * static_cast<double>(i + 1) - 1) {
+          tally.score() < 0.4 * least * static_cast<double>(i + 1) - 1) {
         return -1.0;
       }
     }
-    return (tally.meet - 2 * tally.free) / static_cast<double>(points.size());
+    return tally.score() / static_cast<double>(points.size());
   };
   const double there = one_way(source_, source_points_, Motion(target_from_source), target_);
   if (there <= -1) return -1;

@@ -9,9 +9,11 @@
 namespace facula {
 namespace {
 
-constexpr double kMaxContradiction = 0.05;
-constexpr double kMaxMisfit = 0.45;
-constexpr double kRivalShare = 0.8;  // of the best pose's quality, to be a rival [1]
+constexpr double kMaxContradiction = 0.1;
+constexpr double kMaxMisfit = 0.5;
+constexpr double kMaxDoubt = 0.6;     // misfit plus twice the contradiction [1]
+constexpr double kRivalShare = 0.8;   // of the best pose's quality, to be a rival [1]
+constexpr double kRivalDoubt = 0.05;  // above the best pose's doubt, at most [1]
 
 /// "44.1 %".
 std::string percent(double share) {
@@ -27,6 +29,17 @@ std::string millimetres(double length) {
   text.precision(3);
   text << 1000 * length << " mm";
   return text.str();
+}
+
+/// What speaks against a pose; a point in free space more than one off a surface.
+double doubt(const PoseScore& score) {
+  return score.misfit + 2 * score.contradiction;
+}
+
+/// Whether a pose explains the scans about as well as the best: by as many points, and with hardly
+/// more that speaks against it (the furniture of a room that is the same after half a turn).
+bool is_rival(const PoseScore& score, const PoseScore& best) {
+  return quality(score) >= kRivalShare * quality(best) && doubt(score) <= doubt(best) + kRivalDoubt;
 }
 
 std::string figures_of(const PoseScore& score) {
@@ -62,7 +75,7 @@ double quality(const PoseScore& score) {
 
 bool fits(const PoseScore& score, double min_overlap) {
   return score.overlap >= min_overlap && score.contradiction <= kMaxContradiction &&
-         score.misfit <= kMaxMisfit;
+         score.misfit <= kMaxMisfit && doubt(score) <= kMaxDoubt;
 }
 
 GlobalResult verdict_on(const std::vector<JudgedPose>& refined,
@@ -85,8 +98,10 @@ GlobalResult verdict_on(const std::vector<JudgedPose>& refined,
   const JudgedPose& best = fitting.front();
   result.pair = best.pair;
   result.score = best.score;
+  PoseScore score_of_rival;
   for (std::size_t i = 1; i < fitting.size(); ++i) {
-    if (quality(fitting[i].score) >= kRivalShare * quality(best.score)) {
+    if (is_rival(fitting[i].score, best.score)) {
+      if (result.rivals.empty()) score_of_rival = fitting[i].score;
       result.rivals.push_back(fitting[i].pair);
     }
   }
