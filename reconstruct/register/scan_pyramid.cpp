@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/reconstruct/filter/cloud_filters.hpp>
+#include <facula/reconstruct/filter/grid_normals.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
 #include <facula/reconstruct/filter/sampling_distance.hpp>
 #include <facula/reconstruct/register/scan_pyramid.hpp>
@@ -18,7 +19,8 @@ namespace {
 constexpr std::size_t kMinPoints = 12;
 constexpr double kVoxelPerSampling = 2;  // some two points share a voxel: noise is averaged
 
-PointCloud finite_points(const PosedCloud& scan) {
+/// The scan's finite points, with the normals its grid gives where it brings none of its own.
+PointCloud finite_points(const PosedCloud& scan, int num_threads) {
   std::vector<std::size_t> finite;
   for (std::size_t i = 0; i < scan.cloud.size(); ++i) {
     if (scan.cloud.points[i].allFinite()) finite.push_back(i);
@@ -30,7 +32,10 @@ PointCloud finite_points(const PosedCloud& scan) {
           finite.size(),
           " finite points; registration needs at least ",
           kMinPoints);
-  return selected(scan.cloud, finite);
+  if (!scan.cloud.normals.empty() || scan.grid.empty()) return selected(scan.cloud, finite);
+  PointCloud cloud = scan.cloud;
+  cloud.normals = grid_normals(cloud, scan.grid, {.num_threads = num_threads});
+  return selected(cloud, finite);
 }
 
 /// Throws when the points lie on one line (or in one spot), which shows no surface.
@@ -75,7 +80,8 @@ double voxel_of(const PointCloud& cloud, const std::string& name) {
 /// Thins the cloud; `merged` says how many scan points each of its points stands for, before and
 /// after. Sigmas of 1 carry the numbers through the thinning: n of them make a mean of 1 / sqrt(n).
 PointCloud thinned(const PointCloud& cloud, double voxel, std::vector<float>& merged) {
-  PointCloud counted{.points = cloud.points};
+  PointCloud counted;
+  counted.points = cloud.points;
   for (const float n : merged) counted.sigma.push_back(1 / std::sqrt(n));
   counted = thin_by_voxel(counted, voxel);
   merged.clear();
@@ -101,7 +107,7 @@ void PyramidOptions::check() const {
 ScanPyramid build_pyramid(const PosedCloud& scan, const PyramidOptions& options) {
   options.check();
   scan.cloud.check();
-  PointCloud cloud = finite_points(scan);
+  PointCloud cloud = finite_points(scan, options.num_threads);
   require_surface(cloud, scan.name);
   ScanPyramid pyramid;
   pyramid.name = scan.name;

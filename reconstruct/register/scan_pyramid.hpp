@@ -34,7 +34,8 @@ struct ScanPyramid {
   std::vector<PyramidLevel> levels;  ///< finest first
 };
 
-/// Throws Error naming the scan when fewer than 12 finite points or no surface are left.
+/// Normals are the scan's own, or its grid's, or those of neighbours. Throws Error naming the scan
+/// when fewer than 12 finite points or no surface are left.
 ScanPyramid build_pyramid(const PosedCloud& scan, const PyramidOptions& options = {});
 
 }  // namespace facula
