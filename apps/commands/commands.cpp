@@ -13,7 +13,12 @@
 #include <facula/apps/commands/extract.hpp>
 #include <facula/apps/commands/info.hpp>
 #include <facula/apps/commands/map.hpp>
+#include <facula/apps/commands/measure_angles.hpp>
+#include <facula/apps/commands/measure_compare.hpp>
+#include <facula/apps/commands/measure_distance.hpp>
+#include <facula/apps/commands/measure_flatness.hpp>
 #include <facula/apps/commands/measure_planes.hpp>
+#include <facula/apps/commands/measure_profile.hpp>
 #include <facula/apps/commands/measure_two_line.hpp>
 #include <facula/apps/commands/mesh.hpp>
 #include <facula/apps/commands/register.hpp>
@@ -39,6 +44,11 @@ std::vector<Command> all_commands() {
        register_command(),
        mesh_command(),
        measure_planes_command(),
+       measure_angles_command(),
+       measure_distance_command(),
+       measure_flatness_command(),
+       measure_profile_command(),
+       measure_compare_command(),
        measure_two_line_command(),
        map_command()});
   add("A head with a board",

@@ -147,6 +147,12 @@ std::optional<Cylinder> best_of_trials(const PointCloud& cloud, const ShapeSearc
           "a cylinder needs at least 5 points with normals, the cloud has ",
           usable.size());
   Random random(options.seed);
+  constexpr std::size_t kMostJudges = 5000;
+  std::vector<std::size_t> judging = usable;
+  if (usable.size() > kMostJudges) {
+    judging.resize(kMostJudges);
+    for (std::size_t& i : judging) i = usable[random.below(usable.size())];
+  }
   std::optional<Cylinder> best;
   std::size_t most = 0;
   for (int t = 0; t < options.trials; ++t) {
@@ -158,7 +164,7 @@ std::optional<Cylinder> best_of_trials(const PointCloud& cloud, const ShapeSearc
       continue;
     }
     std::size_t count = 0;
-    for (const std::size_t k : usable) {
+    for (const std::size_t k : judging) {
       count += counts(cloud, k, *cylinder, options.inlier_distance) ? 1 : 0;
     }
     if (count <= most) continue;
@@ -215,8 +221,13 @@ FoundCylinder find_cylinder(const PointCloud& cloud, const ShapeSearchOptions& o
           found.indices.size(),
           "; raise the inlier distance or name the radius sought");
   found.fit = fit_cylinder(cloud, found.indices, *start);
-  for (int round = 0; round < 3; ++round) {
-    found.indices = points_on(cloud, found.fit.cylinder, options.inlier_distance);
+  for (int round = 0; round < 4; ++round) {
+    std::vector<double> away;
+    for (const std::size_t i : found.indices) {
+      away.push_back(found.fit.cylinder.signed_distance(cloud.points[i].cast<double>()));
+    }
+    const double within = trimmed_distance(away, options.inlier_distance);
+    found.indices = points_on(cloud, found.fit.cylinder, within);
     require(found.indices.size() >= options.min_points,
             "expected a cylinder of ",
             options.min_points,

@@ -149,18 +149,21 @@ DeviationStatistics deviation_statistics(const std::vector<double>& values) {
   return result;
 }
 
+double typical_reach(const std::vector<double>& values) {
+  std::vector<double> sizes = numbers_of(values);
+  if (sizes.empty()) return 0;
+  for (double& size : sizes) size = std::abs(size);
+  return std::min(quantile(sizes, 0.995), 5 * quantile(sizes, 0.6827));
+}
+
 DeviationBins bin_deviations(const std::vector<double>& values, std::size_t count) {
   require(count >= 1, "expected 1 bin or more, got ", count);
   std::vector<double> numbers = numbers_of(values);
   DeviationBins bins;
   bins.counts.assign(count, 0);
   if (numbers.empty()) return bins;
-  bins.low = quantile(numbers, 0.005);
-  bins.high = quantile(numbers, 0.995);
-  if (bins.low < 0 && bins.high > 0) {
-    bins.high = std::max(-bins.low, bins.high);
-    bins.low = -bins.high;
-  }
+  bins.high = typical_reach(numbers);
+  bins.low = *std::min_element(numbers.begin(), numbers.end()) < 0 ? -bins.high : 0;
   const double size = (bins.high - bins.low) / static_cast<double>(count);
   for (const double value : numbers) {
     if (value < bins.low) {

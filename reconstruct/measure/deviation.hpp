@@ -69,8 +69,12 @@ struct DeviationBins {
   std::size_t above = 0;            ///< values above high [1]
 };
 
-/// `count` bins, at least 1, between the ends that leave 1 in 200 values outside on either side;
-/// even about 0 where there are values of both signs.
+/// The size of deviation up to which nearly all lie: 199 in 200, or 5 times that of 2 in 3 where a
+/// few strays would stretch it [m]. 0 for no values.
+double typical_reach(const std::vector<double>& values);
+
+/// `count` bins, at least 1, over the values within typical_reach() of 0; from 0 on where no value
+/// is below.
 DeviationBins bin_deviations(const std::vector<double>& values, std::size_t count);
 
 }  // namespace facula

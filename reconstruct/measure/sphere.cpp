@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/median.hpp>
 #include <facula/acquire/core/random.hpp>
 #include <facula/reconstruct/measure/sphere.hpp>
 
@@ -82,6 +83,27 @@ std::vector<std::size_t> points_on(const PointCloud& cloud, const Sphere& sphere
   return result;
 }
 
+/// Enough points to judge tries by; all where there are few.
+std::vector<std::size_t> judges(const std::vector<std::size_t>& indices, Random& random) {
+  constexpr std::size_t kMost = 5000;
+  if (indices.size() <= kMost) return indices;
+  std::vector<std::size_t> drawn;
+  for (std::size_t i = 0; i < kMost; ++i) drawn.push_back(indices[random.below(indices.size())]);
+  return drawn;
+}
+
+std::size_t count_on(const PointCloud& cloud,
+                     const std::vector<std::size_t>& indices,
+                     const Sphere& sphere,
+                     double within) {
+  std::size_t count = 0;
+  for (const std::size_t i : indices) {
+    const double away = sphere.signed_distance(cloud.points[i].cast<double>());
+    count += std::abs(away) <= within ? 1 : 0;
+  }
+  return count;
+}
+
 std::optional<Sphere> best_of_trials(const PointCloud& cloud, const ShapeSearchOptions& options) {
   Random random(options.seed);
   std::vector<std::size_t> finite;
@@ -89,6 +111,7 @@ std::optional<Sphere> best_of_trials(const PointCloud& cloud, const ShapeSearchO
     if (cloud.points[i].allFinite()) finite.push_back(i);
   }
   require(finite.size() >= 4, "a sphere needs at least 4 points, the cloud has ", finite.size());
+  const std::vector<std::size_t> judging = judges(finite, random);
   std::optional<Sphere> best;
   std::size_t most = 0;
   double trials = options.trials;
@@ -101,13 +124,13 @@ std::optional<Sphere> best_of_trials(const PointCloud& cloud, const ShapeSearchO
     if (!sphere || sphere->radius < options.min_radius || sphere->radius > options.max_radius) {
       continue;
     }
-    const std::size_t count = points_on(cloud, *sphere, options.inlier_distance).size();
+    const std::size_t count = count_on(cloud, judging, *sphere, options.inlier_distance);
     if (count <= most) continue;
     most = count;
     best = sphere;
     // Enough tries that four good points were drawn once in 1 - 1e-6 of searches.
     const double good =
-        std::pow(static_cast<double>(count) / static_cast<double>(finite.size()), 4);
+        std::pow(static_cast<double>(count) / static_cast<double>(judging.size()), 4);
     if (good > 0.999) break;
     trials = std::min(trials, std::log(1e-6) / std::log(1 - good));
   }
@@ -148,6 +171,14 @@ void ShapeSearchOptions::check() const {
   require(trials >= 1, "expected 1 trial or more, got ", trials);
 }
 
+double trimmed_distance(std::vector<double> distances, double inlier_distance) {
+  constexpr double kReach = 5;     // robust standard deviations
+  constexpr double kLeast = 1e-6;  // [m]; floats hold no finer distances
+  for (double& d : distances) d = std::abs(d);
+  const double reach = kReach * 1.4826 * median(distances);
+  return std::min(inlier_distance, std::max(kLeast, reach));
+}
+
 FoundSphere find_sphere(const PointCloud& cloud, const ShapeSearchOptions& options) {
   options.check();
   cloud.check();
@@ -162,9 +193,14 @@ FoundSphere find_sphere(const PointCloud& cloud, const ShapeSearchOptions& optio
           ", the best has ",
           found.indices.size(),
           "; raise the inlier distance or name the radius sought");
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 4; ++round) {
     found.fit = fit_sphere(cloud, found.indices);
-    found.indices = points_on(cloud, found.fit.sphere, options.inlier_distance);
+    std::vector<double> away;
+    for (const std::size_t i : found.indices) {
+      away.push_back(found.fit.sphere.signed_distance(cloud.points[i].cast<double>()));
+    }
+    const double within = trimmed_distance(away, options.inlier_distance);
+    found.indices = points_on(cloud, found.fit.sphere, within);
   }
   found.fit = fit_sphere(cloud, found.indices);
   return found;

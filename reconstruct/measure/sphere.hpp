@@ -44,14 +44,19 @@ struct ShapeSearchOptions {
   void check() const;
 };
 
+/// How far from a fitted shape its points may lie: the inlier distance, or 5 robust standard
+/// deviations of the distances where that is less. What touches a shape lies within the first and
+/// would bend it.
+double trimmed_distance(std::vector<double> distances, double inlier_distance);
+
 struct FoundSphere {
   SphereFit fit;
   std::vector<std::size_t> indices;  ///< of the cloud's points on it
 };
 
 /// The sphere with most points on it by RANSAC (Fischler and Bolles 1981) over four points a try,
-/// then least squares over its points. The same seed gives the same sphere. Throws Error when none
-/// has min_points.
+/// judged by 5000 points drawn from the cloud, then least squares over its points. The same seed
+/// gives the same sphere. Throws Error when none has min_points.
 FoundSphere find_sphere(const PointCloud& cloud, const ShapeSearchOptions& options = {});
 
 }  // namespace facula

@@ -183,7 +183,10 @@ TEST(DeviationBins, HoldEveryValueOnce) {
             10000U);
   EXPECT_LE(bins.below + bins.above, 101U);
   EXPECT_NEAR(static_cast<double>(bins.counts[20]) / 10000, 0.3989 * 2 * bins.high / 40, 0.01);
-  EXPECT_EQ(bin_deviations({1, 1, 1}, 3).counts[0], 3U);
+  EXPECT_EQ(bin_deviations({1, 1, 1}, 3).counts[2], 3U);
+  EXPECT_NEAR(typical_reach(values), 2.81, 0.15);          // of a normal distribution
+  for (std::size_t i = 0; i < 200; ++i) values[i] = 1000;  // strays do not stretch it
+  EXPECT_NEAR(typical_reach(values), 5, 0.5);
   EXPECT_EQ(bin_deviations({}, 3).counts.size(), 3U);
 }
 

@@ -150,7 +150,7 @@ TEST(FindSphere, FindsTheBallAmongClutterAndRepeatsItself) {
   const FoundSphere found = find_sphere(cloud, options);
   EXPECT_NEAR(found.fit.sphere.radius, kBall.radius, 2e-4);
   EXPECT_LT((found.fit.sphere.center - kBall.center).norm(), 3e-4);
-  EXPECT_GT(found.indices.size(), 0.98 * static_cast<double>(of_ball));
+  EXPECT_GT(found.indices.size(), 0.94 * static_cast<double>(of_ball));
   EXPECT_EQ(find_sphere(cloud, options).indices, found.indices);
 }
 
@@ -162,7 +162,7 @@ TEST(FindCylinder, FindsTheRodAmongClutterAndRepeatsItself) {
   const FoundCylinder found = find_cylinder(cloud, options);
   EXPECT_NEAR(found.fit.cylinder.radius, kRod.radius, 2e-4);
   EXPECT_GT(std::abs(found.fit.cylinder.axis.dot(kRod.axis)), std::cos(0.01));
-  EXPECT_GT(found.indices.size(), 0.95 * static_cast<double>(of_rod));
+  EXPECT_GT(found.indices.size(), 0.9 * static_cast<double>(of_rod));
   EXPECT_EQ(find_cylinder(cloud, options).indices, found.indices);
 }
 

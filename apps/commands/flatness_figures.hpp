@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <facula/apps/cli/figures.hpp>
+#include <facula/reconstruct/measure/flatness.hpp>
+#include <facula/reconstruct/measure/flatness_uncertainty.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace facula {
+
+/// What was measured on one surface.
+struct MeasuredFlatness {
+  Flatness flatness;
+  std::optional<FlatnessUncertainty> uncertainty;  ///< nothing where no noise is known
+};
+
+/// A row per surface: FLTt, FLTp, FLTv, FLTq, the minimum zone, and what noise does to FLTt.
+FigureTable flatness_table(const std::vector<MeasuredFlatness>& surfaces);
+
+/// A sentence on what the noise of a surface lets one say of it.
+std::string flatness_verdict(const MeasuredFlatness& surface);
+
+}  // namespace facula
