@@ -48,9 +48,10 @@ struct PoseGraphResult {
   /// Of the twist e in true pose = exp_se3(e) * world_from_scan, against the pose that stays: the
   /// anchor's, and in other components that of the lowest scan. Huge where edges leave it open.
   std::vector<Eigen::Matrix<double, 6, 6>> covariance;
-  std::vector<EdgeResidual> edges;  ///< in the order given
-  double chi2 = 0;                  ///< over the edges kept [1]
-  int degrees_of_freedom = 0;       ///< of that chi2 [1]
+  Eigen::MatrixXd joint_covariance;  ///< of all poses together, six rows and columns per scan
+  std::vector<EdgeResidual> edges;   ///< in the order given
+  double chi2 = 0;                   ///< over the edges kept [1]
+  int degrees_of_freedom = 0;        ///< of that chi2 [1]
 };
 
 /// Poses that fit all edges best, in the least-squares sense on SE(3) (Ceres). When robust, wrong

@@ -170,7 +170,9 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& normal) {
 }
 
 void Graph::find_covariance(const std::vector<double>& weights, PoseGraphResult& result) const {
+  const auto all = static_cast<Eigen::Index>(6 * scans_);
   result.covariance.assign(scans_, Matrix6::Zero());
+  result.joint_covariance = Eigen::MatrixXd::Zero(all, all);
   std::vector<std::array<double, 6>> change(scans_, std::array<double, 6>{});
   const auto problem = build(weights, result.world_from_scan, change);
   const std::vector<bool> stays = held(weights);
@@ -192,6 +194,12 @@ void Graph::find_covariance(const std::vector<double>& weights, PoseGraphResult&
   }
   const Eigen::MatrixXd covariance = inverse_of(jacobian.transpose() * jacobian);
   for (std::size_t i = 0; i < scans_; ++i) {
+    for (std::size_t k = 0; k < scans_; ++k) {
+      if (column[i] < 0 || column[k] < 0) continue;
+      result.joint_covariance.block<6, 6>(static_cast<Eigen::Index>(6 * i),
+                                          static_cast<Eigen::Index>(6 * k)) =
+          covariance.block<6, 6>(column[i], column[k]);
+    }
     if (column[i] >= 0) result.covariance[i] = covariance.block<6, 6>(column[i], column[i]);
   }
   Eigen::Index row = 0;

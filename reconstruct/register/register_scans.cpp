@@ -127,6 +127,7 @@ RegisterScansResult register_scans(ScanProject& project, const RegisterScansOpti
   result.scan_sigma = fitting_scan_sigma(
       project, result.edges, plain, {kTightVoxels * voxel, kLooseVoxels * voxel});
   network = join_scans(project, result.edges, plain, result.scan_sigma);
+  if (!result.from_given) move_anchor(project, central_scan(scans, network), network);
   result.chi2 = network.chi2;
   result.degrees_of_freedom = network.degrees_of_freedom;
   check_placements(scans, network, options.num_threads, result);

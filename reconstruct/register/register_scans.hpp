@@ -23,15 +23,14 @@ enum class ScanStart : std::uint8_t {
 
 struct RegisterScansOptions {
   ScanStart start = ScanStart::kAuto;
-  ScanMotion motion;       ///< how the scans may lie to each other
-  PyramidOptions pyramid;  ///< of every scan
-  GlobalOptions global;    ///< of the search from nothing; its seed fixes the result
-  PairOptions
-      refinement;  ///< of pairs that start from given poses; max_distance 0 = 4 coarse voxels
-  PoseGraphOptions graph;    ///< the anchor is chosen: the first scan of the largest group
-  double min_overlap = 0.1;  ///< pairs that share less are not registered [0..1]
-  int num_threads = 0;       ///< 0 = all cores; the result does not depend on it [1]
-  Progress progress;         ///< called per pair; may be empty
+  ScanMotion motion = {};       ///< how the scans may lie to each other
+  PyramidOptions pyramid = {};  ///< of every scan
+  GlobalOptions global = {};    ///< of the search from nothing; its seed fixes the result
+  PairOptions refinement = {};  ///< of pairs; max_distance holds for a start from given poses
+  PoseGraphOptions graph = {};  ///< its anchor is not used, see register_scans()
+  double min_overlap = 0.15;    ///< pairs that share less are not registered [0..1]
+  int num_threads = 0;          ///< 0 = all cores; the result does not depend on it [1]
+  Progress progress = {};       ///< called per pair; may be empty
 
   void check() const;
 };
@@ -84,9 +83,10 @@ struct RegisterScansResult {
 /// Finds the poses of all scans, from nothing or from given poses: registers every pair, joins the
 /// pairs in a pose graph that gives up wrong ones, registers all pairs that overlap once more from
 /// there, and checks every scan against all others. Poses of placed scans are updated; a scan that
-/// cannot be placed keeps its pose and is refused with the reason. Does not depend on the order of
-/// the scans, but for the anchor, where their names differ. Throws Error when fewer than two scans
-/// can be used.
+/// cannot be placed keeps its pose and is refused with the reason. One scan keeps its pose: from
+/// given poses the first of the largest group, from nothing the one against which the others are
+/// known best. The result does not depend on the order of the scans where their names differ (but
+/// for that first one). Throws Error when fewer than two scans can be used.
 RegisterScansResult register_scans(ScanProject& project, const RegisterScansOptions& options = {});
 
 }  // namespace facula

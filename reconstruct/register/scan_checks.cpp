@@ -97,11 +97,14 @@ void check_placements(const ReadyScans& scans,
                  }
                },
                {.num_threads = num_threads, .chunk = 1});
+  const bool alone = std::count_if(network.world_from_scan.begin(),
+                                   network.world_from_scan.end(),
+                                   [](const auto& pose) { return pose.has_value(); }) < 2;
   for (std::size_t i = 0; i < count; ++i) {
     ScanPlacement& place = result.scans[i];
     if (!scans.refusals[i].empty()) {
       place.reason = scans.refusals[i];
-    } else if (!network.world_from_scan[i]) {
+    } else if (alone || !network.world_from_scan[i]) {
       place.reason = why_refused(result.edges, i);
     } else if (place.contradiction > kMostInFreeSpace && i != network.anchor) {
       place.reason = percent(place.contradiction) +

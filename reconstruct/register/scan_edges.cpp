@@ -38,10 +38,12 @@ double moved_by(const ScanPyramid& source, const RigidTransform& a, const RigidT
   return (a * middle - b * middle).norm() + rotation_angle(a.inverse() * b) * source.diameter / 4;
 }
 
-void take(const PairResult& pair, ScanEdge& edge) {
+void take(const PairResult& pair, const ReadyScans& scans, ScanEdge& edge) {
   edge.edge.to_from_from = pair.target_from_source;
   edge.edge.information = pair.information;
-  edge.overlap = pair.overlap;
+  const double source = static_cast<double>(scans.pyramids[edge.edge.from]->levels[0].cloud.size());
+  const double target = static_cast<double>(scans.pyramids[edge.edge.to]->levels[0].cloud.size());
+  edge.overlap = std::min(1.0, pair.overlap * source / std::min(source, target));
   edge.inlier_rms = pair.inlier_rms;
 }
 
@@ -81,8 +83,8 @@ ScanEdge searched(const ReadyScans& scans, const Pair& pair, const RegisterScans
   try {
     const GlobalResult found =
         register_without_guess(*scans.features[pair.first], *scans.features[pair.second], how);
-    take(found.pair, edge);
-    edge.overlap = found.score.overlap;
+    take(found.pair, scans, edge);
+    if (found.score.overlap > 0) edge.overlap = found.score.overlap;
     edge.reason = found.reason;
     if (found.verdict != Verdict::kAccepted) return edge;
     if (!options.motion.allows(edge.edge.to_from_from)) {
@@ -116,14 +118,13 @@ std::optional<ScanEdge> guessed(const ReadyScans& scans,
   alone.num_threads = 1;
   try {
     const PairResult found = register_pair(source, target, guess, alone);
-    take(found, edge);
+    take(found, scans, edge);
     const double moved = moved_by(source, found.target_from_source, guess);
     if (how.tolerance == 0 && !found.converged) {
       edge.reason = "it did not settle";
     } else if (how.tolerance > 0 && moved > how.tolerance) {
       edge.reason = "it slid away from the pose that the other scans give";
-    } else if (rough_overlap(source, target, found.target_from_source, coarse) <
-               options.min_overlap) {
+    } else if (edge.overlap < options.min_overlap) {
       edge.reason = "the two scans share too little";
     } else if (!options.motion.allows(edge.edge.to_from_from)) {
       edge.reason = "the pose found does not keep to the motion of the scanner";

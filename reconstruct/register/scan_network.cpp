@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <Eigen/Cholesky>
@@ -13,6 +14,8 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
+constexpr double kLeastOverlap = 0.05;  // counted as this much at least [1]
+
 /// The edge's information after the error of whole scans was added to its pose, about the middle of
 /// what both share: (I^-1 + F)^-1 = G - G (I + G)^-1 G with G = F^-1, which holds for any rank.
 Matrix6 softened(const ScanEdge& edge, double scan_sigma) {
@@ -20,7 +23,9 @@ Matrix6 softened(const ScanEdge& edge, double scan_sigma) {
   // A twist about the origin moves the middle by t + w x c.
   Matrix6 to_middle = Matrix6::Identity();
   to_middle.topRightCorner<3, 3>() << 0, c.z(), -c.y(), -c.z(), 0, c.x(), c.y(), -c.x(), 0;
-  const double shift = 1 / (scan_sigma * scan_sigma);
+  // What is bent averages out over a surface: the less both share, the more of it is seen.
+  const double sigma = scan_sigma / std::clamp(edge.overlap, kLeastOverlap, 1.0);
+  const double shift = 1 / (sigma * sigma);
   Eigen::Matrix<double, 6, 1> weight;
   weight << Eigen::Vector3d::Constant(shift),
       Eigen::Vector3d::Constant(shift * edge.radius * edge.radius);
@@ -120,6 +125,39 @@ void note_residuals(const PoseGraphResult& graph,
   }
 }
 
+Eigen::Vector3d middle_of(const ScanPyramid& scan) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const auto& points = scan.levels.back().cloud.points;
+  for (const Eigen::Vector3f& p : points) sum += p.cast<double>();
+  return sum / static_cast<double>(points.size());
+}
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+/// Carries a twist of one frame into another.
+Matrix6 adjoint_of(const RigidTransform& pose) {
+  const Eigen::Matrix3d r = pose.rotation.toRotationMatrix();
+  Matrix6 adjoint = Matrix6::Zero();
+  adjoint.topLeftCorner<3, 3>() = r;
+  adjoint.bottomRightCorner<3, 3>() = r;
+  adjoint.topRightCorner<3, 3>() = cross_matrix(pose.translation) * r;
+  return adjoint;
+}
+
+Matrix6 block(const ScanNetwork& network, std::size_t i, std::size_t k) {
+  return network.joint_covariance.block<6, 6>(static_cast<Eigen::Index>(6 * i),
+                                              static_cast<Eigen::Index>(6 * k));
+}
+
+/// Covariance of the pose of scan i against that of scan a, as a twist of the world.
+Matrix6 relative_covariance(const ScanNetwork& network, std::size_t i, std::size_t a) {
+  return block(network, i, i) + block(network, a, a) - block(network, i, a) - block(network, a, i);
+}
+
 /// chi2 of the kept edges over what it should be; 0 where no loop tells.
 double median_excess(const std::vector<ScanEdge>& edges) {
   constexpr double kMedianOfSix = 5.348;  // of chi2 with six degrees of freedom
@@ -163,6 +201,7 @@ ScanNetwork join_scans(const ScanProject& project,
   const PoseGraphResult plain = solve_pose_graph(count, measured, poses, how);
   note_residuals(plain, which, edges);
   network.covariance = plain.covariance;
+  network.joint_covariance = plain.joint_covariance;
   network.chi2 = plain.chi2;
   network.degrees_of_freedom = plain.degrees_of_freedom;
   for (std::size_t i = 0; i < count; ++i) {
@@ -170,6 +209,41 @@ ScanNetwork join_scans(const ScanProject& project,
                                                           : std::nullopt);
   }
   return network;
+}
+
+std::size_t central_scan(const ReadyScans& scans, const ScanNetwork& network) {
+  std::size_t best = network.anchor;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t a : scans.order) {
+    if (!network.world_from_scan[a]) continue;
+    double sum = 0;
+    for (const std::size_t i : scans.order) {
+      if (!network.world_from_scan[i]) continue;
+      const Eigen::Vector3d x = *network.world_from_scan[i] * middle_of(*scans.pyramids[i]);
+      Eigen::Matrix<double, 3, 6> moves;
+      moves << Eigen::Matrix3d::Identity(), -cross_matrix(x);
+      sum += (moves * relative_covariance(network, i, a) * moves.transpose()).trace();
+    }
+    if (sum < least) {
+      least = sum;
+      best = a;
+    }
+  }
+  return best;
+}
+
+void move_anchor(const ScanProject& project, std::size_t anchor, ScanNetwork& network) {
+  const RigidTransform change =
+      project.scans[anchor].world_from_scan * network.world_from_scan[anchor]->inverse();
+  const Matrix6 adjoint = adjoint_of(change);
+  const ScanNetwork before = network;
+  for (std::size_t i = 0; i < network.covariance.size(); ++i) {
+    if (!before.world_from_scan[i]) continue;
+    network.world_from_scan[i] = change * *before.world_from_scan[i];
+    network.covariance[i] = adjoint * relative_covariance(before, i, anchor) * adjoint.transpose();
+  }
+  network.joint_covariance.resize(0, 0);  // was against the other anchor
+  network.anchor = anchor;
 }
 
 double fitting_scan_sigma(const ScanProject& project,

@@ -13,22 +13,30 @@ namespace facula {
 
 /// Scans joined by edges.
 struct ScanNetwork {
-  std::size_t anchor = 0;       ///< first scan, as given, of the largest group
+  std::size_t anchor = 0;       ///< scan of the largest group that stays where it is
   PoseGuesses world_from_scan;  ///< of the largest group
   std::vector<Eigen::Matrix<double, 6, 6>> covariance;  ///< of the same
+  Eigen::MatrixXd joint_covariance;  ///< of all poses together; empty after move_anchor()
   double chi2 = 0;
   int degrees_of_freedom = 0;
 };
 
 /// Joins the scans by the edges that are kept, gives up those that contradict the others when
 /// options.graph is robust (and says so in their verdicts), and solves for the poses of the largest
-/// group. `scan_sigma` is what scans have wrong as a whole, beside the noise that the covariances
-/// of pairs tell of: a shift of this size of what both share, and the turn that moves its rim as
-/// far [m]. Residuals go to the edges.
+/// group, whose first scan stays. `scan_sigma` is what scans have wrong as a whole, beside the
+/// noise that the covariances of pairs tell of: a shift of this size of what both share, and the
+/// turn that moves its rim as far [m]. Residuals go to the edges.
 ScanNetwork join_scans(const ScanProject& project,
                        std::vector<ScanEdge>& edges,
                        const RegisterScansOptions& options,
                        double scan_sigma);
+
+/// The scan of the network against which the others are known best, by the sum of the variances of
+/// their middles; the poses are then as sure as they can be.
+std::size_t central_scan(const ReadyScans& scans, const ScanNetwork& network);
+
+/// The network with another scan that stays.
+void move_anchor(const ScanProject& project, std::size_t anchor, ScanNetwork& network);
 
 /// The least scan_sigma with which the kept edges' residuals are as large as they should be, by the
 /// median: a few bad edges do not count. Between `least` and `most` [m]; `least` where no loop
