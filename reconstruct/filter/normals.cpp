@@ -46,8 +46,7 @@ std::vector<Eigen::Vector3f> normals_of_evened(const PointCloud& cloud,
                                                const NormalOptions& options) {
   PointCloud positions;
   positions.points = cloud.points;
-  const std::vector<Eigen::Vector3f> surface =
-      thin_by_voxel(positions, voxel).points;
+  const std::vector<Eigen::Vector3f> surface = thin_by_voxel(positions, voxel).points;
   const NearestNeighbours tree(surface, options.num_threads);
   std::vector<Eigen::Vector3f> normals(cloud.size(), Eigen::Vector3f::Zero());
   const auto estimate = [&](std::size_t begin, std::size_t end) {

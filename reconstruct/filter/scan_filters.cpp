@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/reconstruct/filter/edge_deviation.hpp>
 #include <facula/reconstruct/filter/scan_filters.hpp>
 
 #include <algorithm>
@@ -104,6 +105,16 @@ class MixedPointJudge {
   std::vector<char> mixed_;
 };
 
+/// One entry per cell, 1 where it hangs between the two sides of an edge.
+std::vector<char> between_edges(const PolarScan& scan, const MixedPointOptions& options) {
+  MixedPointJudge judge(scan, options);
+  for (int col = 0; col < scan.cols; ++col) judge.judge_column(col);
+  for (int col = 1; col + 1 < scan.cols; ++col) {
+    for (int row = 0; row < scan.rows; ++row) judge.judge_row_neighbours(row, col);
+  }
+  return judge.mixed();
+}
+
 }  // namespace
 
 void MixedPointOptions::check() const {
@@ -120,23 +131,36 @@ void MixedPointOptions::check() const {
           jump_ratio,
           "; give a share of 0 or more");
   require(min_run >= 1, "min_run is ", min_run, "; give at least 1");
+  require(max_deviation >= 0, "max_deviation is ", max_deviation, "; give a number of 0 or more");
+}
+
+FilterVerdict mixed_points(const PolarScan& scan, const MixedPointOptions& options) {
+  options.check();
+  scan.check();
+  std::vector<char> mixed = between_edges(scan, options);
+  if (options.max_deviation > 0) {
+    PolarScan rest = scan;
+    for (std::size_t cell = 0; cell < mixed.size(); ++cell) {
+      if (mixed[cell] != 0) rest.clear(cell);
+    }
+    const EdgeDeviationOptions deviation{options.max_incidence, options.max_deviation};
+    const std::vector<char> deviant = edge_deviants(rest, deviation);
+    for (std::size_t cell = 0; cell < mixed.size(); ++cell) mixed[cell] |= deviant[cell];
+  }
+  FilterVerdict verdict(scan.valid_count());
+  std::size_t point = 0;
+  for (std::size_t cell = 0; cell < mixed.size(); ++cell) {
+    if (scan.valid[cell] == 0) continue;
+    if (mixed[cell] != 0) verdict.remove(point, Removal::kMixed);
+    ++point;
+  }
+  return verdict;
 }
 
 std::size_t remove_mixed_points(PolarScan& scan, const MixedPointOptions& options) {
-  options.check();
-  scan.check();
-  MixedPointJudge judge(scan, options);
-  for (int col = 0; col < scan.cols; ++col) judge.judge_column(col);
-  for (int col = 1; col + 1 < scan.cols; ++col) {
-    for (int row = 0; row < scan.rows; ++row) judge.judge_row_neighbours(row, col);
-  }
-  std::size_t cleared = 0;
-  for (std::size_t cell = 0; cell < judge.mixed().size(); ++cell) {
-    if (judge.mixed()[cell] == 0) continue;
-    scan.clear(cell);
-    ++cleared;
-  }
-  return cleared;
+  const FilterVerdict verdict = mixed_points(scan, options);
+  clear_removed(scan, verdict);
+  return verdict.removed();
 }
 
 }  // namespace facula

@@ -121,11 +121,37 @@ TEST(RemoveMixedPoints, KeepsASlantedWallBelowTheSteepestAngle) {
             150U);
 }
 
+TEST(RemoveMixedPoints, ClearsAStripeThatLostPartOfItsLightPastAnUprightEdge) {
+  // A wall at 1 m in front of one at 3 m; the stripe of the column beside the edge has lost half of
+  // its light, seems 12 mm too far, and is twice as uncertain.
+  PolarScan scan = PolarScan::empty(60, kCols);
+  Random random(7);
+  for (int col = 0; col < kCols; ++col) {
+    scan.sensor_origin[std::size_t(col)] = kEye;
+    for (int row = 0; row < 60; ++row) {
+      const bool cut = col == 14;
+      const double x = col < 15 ? 1.0 : 3.0;
+      const float sigma = cut ? 0.003F : 0.0015F;
+      const Eigen::Vector3d r = ray(row + 170, col);
+      const double t = (x - kEye.x()) / r.x() + (cut ? 0.012 : 0) + sigma * random.normal();
+      scan.set(scan.index(row, col), kEye + t * r, 0.5F, sigma);
+    }
+  }
+  EXPECT_EQ(remove_mixed_points(scan, {.max_deviation = 0}), 0U);
+  const std::size_t removed = remove_mixed_points(scan);
+  EXPECT_GE(removed, 48U);
+  EXPECT_LE(removed, 62U);
+  std::size_t left = 0;
+  for (int row = 0; row < 60; ++row) left += scan.valid[scan.index(row, 14)];
+  EXPECT_LE(left, 12U);
+}
+
 TEST(RemoveMixedPoints, RefusesOptionsOutOfRange) {
   PolarScan scan = PolarScan::empty(2, 2);
   EXPECT_NE(error_of([&] { remove_mixed_points(scan, {.max_incidence = 1.6}); }), "");
   EXPECT_NE(error_of([&] { remove_mixed_points(scan, {.min_jump = -1}); }), "");
   EXPECT_NE(error_of([&] { remove_mixed_points(scan, {.min_run = 0}); }), "");
+  EXPECT_NE(error_of([&] { remove_mixed_points(scan, {.max_deviation = -1}); }), "");
   EXPECT_EQ(remove_mixed_points(scan), 0U);
 }
 
