@@ -11,6 +11,7 @@
 #include <facula/apps/commands/demo.hpp>
 #include <facula/apps/commands/design.hpp>
 #include <facula/apps/commands/extract.hpp>
+#include <facula/apps/commands/filter.hpp>
 #include <facula/apps/commands/info.hpp>
 #include <facula/apps/commands/map.hpp>
 #include <facula/apps/commands/measure_angles.hpp>
@@ -41,6 +42,7 @@ std::vector<Command> all_commands() {
   add("From frames to maps",
       {simulate_command(),
        extract_command(),
+       filter_command(),
        register_command(),
        mesh_command(),
        measure_planes_command(),

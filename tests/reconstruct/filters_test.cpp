@@ -151,7 +151,7 @@ TEST(Smooth, TakesTheNoiseFromTheScatterWithoutSigmas) {
   Random random(5);
   for (int i = 0; i < 4000; ++i) {
     cloud.points.emplace_back(
-        float(random.uniform()), float(random.uniform()), float(0.01 * random.normal()));
+        float(random.uniform()), float(random.uniform()), float(0.002 * random.normal()));
   }
   const SmoothedCloud after = smooth(cloud, {.radius = 0.05, .order = 1});
   double chi2 = 0;
