@@ -217,6 +217,19 @@ TEST(DefaultInlierDistance, IsFourTimesTheNoiseWhateverTheSampling) {
   }
 }
 
+TEST(DefaultInlierDistance, IsNotTakenWithinTheStripesOfALineScanner) {
+  PointCloud wall;
+  Random random(35);
+  for (int stripe = 0; stripe < 40; ++stripe) {  // each in a plane of its own, 50 mm apart
+    for (int i = 0; i < 500; ++i) {
+      wall.points.emplace_back(
+          0.05F * float(stripe), 0.004F * float(i), float(2 + 0.003 * random.normal()));
+      wall.sensor_origin.emplace_back(0.001F * float(stripe), 0.0F, 0.0F);
+    }
+  }
+  EXPECT_NEAR(default_inlier_distance(wall), 0.012, 0.003);
+}
+
 TEST(ExtractPlanes, IsTheSameForAnyNumberOfThreads) {
   PointCloud cloud = skewed_room(800, 0.003).cloud;
   const auto one = extract_planes(cloud, {.num_threads = 1});

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/error.hpp>
+#include <facula/apps/cli/output_path.hpp>
+#include <facula/apps/commands/plane_search.hpp>
+#include <facula/apps/commands/posed_scans.hpp>
+#include <facula/reconstruct/filter/cloud_filters.hpp>
+#include <facula/reconstruct/filter/grid_normals.hpp>
+#include <facula/reconstruct/filter/normals.hpp>
+#include <facula/reconstruct/register/pan_tilt_list.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace facula {
+namespace {
+
+/// The cloud to search, with the grid of the only scan where there is one.
+struct SearchedCloud {
+  PointCloud cloud;
+  ScanGrid grid;
+};
+
+bool all_lists(const std::vector<std::filesystem::path>& paths) {
+  return std::all_of(paths.begin(), paths.end(), is_pan_tilt_list);
+}
+
+SearchedCloud read_lists(const PlaneSearch& search, Session& session) {
+  require(search.scans.size() == 1,
+          "expected one list of ranges, got ",
+          search.scans.size(),
+          "; their poses to each other are not known");
+  PosedCloud scan = posed_cloud(read_pan_tilt_list(search.scans.front()), search.tilt_zero);
+  session.figures.count("points", "points", scan.cloud.size());
+  return {std::move(scan.cloud), std::move(scan.grid)};
+}
+
+SearchedCloud read_scans(const PlaneSearch& search, Session& session) {
+  require(search.tilt_zero == 0,
+          "--tilt-zero-deg is for lists of range, pan and tilt, got '",
+          search.scans.front().string(),
+          "'; leave it out");
+  PosedScans scans = read_posed_scans(search.scans);
+  require_surface(scans.points_read, scans.stripes, search.scans.front());
+  session.figures.count("points", "points", scans.points_read);
+  session.figures.count("mixed_removed", "mixed points removed", scans.mixed_removed);
+  SearchedCloud searched{scans.project.fused(), {}};
+  if (scans.project.scans.size() == 1) searched.grid = std::move(scans.project.scans[0].grid);
+  return searched;
+}
+
+SearchedCloud read_searched(const PlaneSearch& search, Session& session) {
+  session.step("reading and filtering", 1, 3);
+  SearchedCloud searched =
+      all_lists(search.scans) ? read_lists(search, session) : read_scans(search, session);
+  if (search.voxel > 0) {
+    searched.cloud = thin_by_voxel(searched.cloud, search.voxel);
+    searched.grid = {};
+    session.figures.count("thinned_points", "points after thinning", searched.cloud.size());
+  }
+  if (search.method == "ransac") searched.grid = {};
+  require(search.method != "grid" || !searched.grid.empty(),
+          "expected a single scan with its grid for --method grid; use --method ransac");
+  session.step("estimating normals", 2, 3);
+  if (searched.grid.empty()) {
+    estimate_normals(searched.cloud, {.num_threads = session.num_threads});
+  } else {
+    searched.cloud.normals =
+        grid_normals(searched.cloud, searched.grid, {.num_threads = session.num_threads});
+  }
+  return searched;
+}
+
+}  // namespace
+
+void declare_plane_search(Arguments& arguments, PlaneSearch& search) {
+  arguments.inputs("SCANS",
+                   search.scans,
+                   "a scan, several, a project (poses.toml, .conf, folder), or a .csv of range_mm, "
+                   "pan_deg, tilt_deg");
+  arguments.required();
+  arguments.output("--csv", search.csv, "also write the table (.csv)");
+  arguments.number("--inlier-mm",
+                   search.options.inlier_distance,
+                   kMillimetres,
+                   "farthest from the plane that a point of it lies; else 4 times the noise");
+  arguments.whole("--min-points", search.options.min_points, "smallest plane");
+  arguments.whole("--max-planes", search.options.max_planes, "stop after this many");
+  arguments.choice("--method",
+                   search.method,
+                   {"auto", "grid", "ransac"},
+                   "grow planes over the grid of a scan, or draw them from the cloud");
+  arguments.whole("--seed", search.seed, "of the random trials");
+  arguments.number(
+      "--voxel-mm", search.voxel, kMillimetres, "thin the points to this first, 0 = not");
+  arguments.number("--tilt-zero-deg",
+                   search.tilt_zero,
+                   kDegrees,
+                   "added to every tilt of a .csv of range_mm, pan_deg, tilt_deg");
+}
+
+void declare_shared_range(Arguments& arguments, PlaneSearch& search) {
+  arguments.number("--shared-range-mm",
+                   search.relations.shared_range_sigma,
+                   kMillimetres,
+                   "standard uncertainty of a range error that all points share");
+}
+
+FoundPlanes find_planes(const PlaneSearch& search, Session& session) {
+  if (!search.csv.empty()) check_output(search.csv, {".csv"});
+  search.relations.check();
+  PlaneExtractionOptions options = search.options;
+  options.seed = static_cast<unsigned>(search.seed % std::numeric_limits<unsigned>::max());
+  options.num_threads = session.num_threads;
+  options.check();
+  require(search.voxel >= 0,
+          "expected --voxel-mm of 0 or more, got ",
+          1000 * search.voxel,
+          "; leave it out to keep all points");
+  SearchedCloud searched = read_searched(search, session);
+  session.step("looking for planes", 3, 3);
+  if (!options.inlier_distance) options.inlier_distance = default_inlier_distance(searched.cloud);
+  FoundPlanes found;
+  found.planes = searched.grid.empty() ? extract_planes(searched.cloud, options)
+                                       : grow_planes(searched.cloud, searched.grid, options);
+  session.end_steps();
+  require(!found.planes.empty(),
+          "expected a plane of ",
+          options.min_points,
+          " points or more among ",
+          searched.cloud.size(),
+          ", got none; lower --min-points or raise --inlier-mm (it was ",
+          1000 * *options.inlier_distance,
+          " mm)");
+  session.figures.number("inlier_mm", "farthest from a plane", 1000 * *options.inlier_distance, 2);
+  session.figures.count("plane_count", "planes", found.planes.size());
+  found.cloud = std::move(searched.cloud);
+  return found;
+}
+
+const ExtractedPlane& plane_called(const std::vector<ExtractedPlane>& planes, std::size_t number) {
+  require(number >= 1 && number <= planes.size(),
+          "expected the number of a plane from 1 to ",
+          planes.size(),
+          ", got ",
+          number,
+          "; 'facula measure planes' lists them");
+  return planes[number - 1];
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> plane_pairs(
+    const std::vector<ExtractedPlane>& planes, std::size_t reference) {
+  if (reference != 0) plane_called(planes, reference);
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t a = 0; a < planes.size(); ++a) {
+    if (reference != 0 && a + 1 != reference) continue;
+    for (std::size_t b = reference != 0 ? 0 : a + 1; b < planes.size(); ++b) {
+      if (a != b) pairs.emplace_back(a, b);
+    }
+  }
+  return pairs;
+}
+
+}  // namespace facula
