@@ -85,7 +85,7 @@ FigureTable plumb_table(const FoundPlanes& found,
                      {"stands", "stands", 0},
                      {"lean_deg", "lean", 4},
                      {"lean_sigma_deg", "sigma", 4},
-                     {"slope_mm_per_m", "slope", 2}},
+                     {"slope_percent", "slope", 3}},
                     {}};
   for (std::size_t i = 0; i < found.planes.size(); ++i) {
     const Measured from_up = measured_angle_to(found.planes[i].fit, up, options);
@@ -95,7 +95,7 @@ FigureTable plumb_table(const FoundPlanes& found,
                           std::string(upright ? "upright" : "level"),
                           degrees(lean),
                           degrees(from_up.sigma),
-                          1000 * std::tan(lean)});
+                          100 * std::tan(lean)});
   }
   return table;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/median.hpp>
+#include <facula/apps/cli/output_path.hpp>
 #include <facula/apps/commands/csv_figures.hpp>
 #include <facula/apps/commands/tilt_zero_figures.hpp>
 #include <facula/reconstruct/measure/tilt_zero.hpp>
@@ -30,6 +31,7 @@ FigureTable zero_table() {
 }  // namespace
 
 void report_tilt_zeros(const PlaneSearch& search, Session& session) {
+  if (!search.csv.empty()) check_output(search.csv, {".csv"});
   TiltZeroOptions options;
   options.planes.inlier_distance = search.options.inlier_distance;
   options.planes.seed = static_cast<unsigned>(search.seed);
