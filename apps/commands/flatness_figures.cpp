@@ -62,4 +62,10 @@ std::string flatness_verdict(const MeasuredFlatness& surface) {
   return "Noise alone would show up to " + floor + "; what is above it is the surface's.";
 }
 
+bool is_cut(const Flatness& flatness, double band) {
+  // Noise alone has a root mean square of a quarter of the band, which is 4 sigma; points that fill
+  // it evenly, 0.58 of it.
+  return flatness.total > 1.6 * band && flatness.root_mean_square > 0.29 * band;
+}
+
 }  // namespace facula

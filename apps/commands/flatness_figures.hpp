@@ -22,4 +22,8 @@ FigureTable flatness_table(const std::vector<MeasuredFlatness>& surfaces);
 /// A sentence on what the noise of a surface lets one say of it.
 std::string flatness_verdict(const MeasuredFlatness& surface);
 
+/// Whether the search that found the plane cut it out of a surface that bends farther than `band`
+/// [m], the farthest point of a plane: its points fill the band rather than crowd about the middle.
+bool is_cut(const Flatness& flatness, double band);
+
 }  // namespace facula

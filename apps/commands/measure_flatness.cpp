@@ -4,71 +4,76 @@
 #include <facula/apps/commands/csv_figures.hpp>
 #include <facula/apps/commands/flatness_figures.hpp>
 #include <facula/apps/commands/measure_flatness.hpp>
+#include <facula/apps/commands/plane_search.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
-#include <facula/reconstruct/filter/normals.hpp>
-#include <facula/reconstruct/measure/plane.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <string>
+#include <utility>
 
 namespace facula {
 namespace {
 
 struct FlatnessArguments {
-  std::vector<std::filesystem::path> scans;
-  std::filesystem::path csv;
-  std::optional<double> inlier_distance;
-  PlaneExtractionOptions search;
-  std::size_t seed = 1;
+  PlaneSearch search;
   bool whole = false;
   FlatnessUncertaintyOptions noise;
 };
 
+/// Points and which of them lie on which surface.
+struct Surfaces {
+  PointCloud cloud;
+  std::vector<std::vector<std::size_t>> indices;
+};
+
 void declare(Arguments& arguments, FlatnessArguments& a) {
-  arguments.inputs("SCANS", a.scans, "a scan, several, or a project (poses.toml, .conf, folder)");
-  arguments.required();
-  arguments.output("--csv", a.csv, "also write the table (.csv)");
+  declare_plane_search(arguments, a.search);
   arguments.flag("--whole", a.whole, "all points are of one surface; look for no planes");
-  arguments.number("--inlier-mm",
-                   a.inlier_distance,
-                   kMillimetres,
-                   "farthest from a plane that a point of it lies; more than its flatness");
-  arguments.whole("--min-points", a.search.min_points, "smallest plane");
-  arguments.whole("--max-planes", a.search.max_planes, "stop after this many");
   arguments.number(
       "--sigma-mm", a.noise.sigma, kMillimetres, "noise of points that do not know their own");
   arguments.whole("--trials", a.noise.trials, "draws of noise for the uncertainty");
-  arguments.whole("--seed", a.seed, "of the search and of the draws");
 }
 
-/// The points of each surface.
-std::vector<std::vector<std::size_t>> surfaces_of(PointCloud& cloud,
-                                                  const FlatnessArguments& a,
-                                                  Session& session) {
-  if (a.whole) {
-    std::vector<std::size_t> all(cloud.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    return {all};
-  }
-  PlaneExtractionOptions options = a.search;
-  options.inlier_distance = a.inlier_distance;
-  options.seed = static_cast<unsigned>(a.seed % std::numeric_limits<unsigned>::max());
-  options.num_threads = session.num_threads;
-  options.check();
-  estimate_normals(cloud, {.num_threads = session.num_threads});
-  std::vector<std::vector<std::size_t>> surfaces;
-  for (ExtractedPlane& plane : extract_planes(cloud, options)) {
-    surfaces.push_back(std::move(plane.indices));
-  }
-  require(!surfaces.empty(),
-          "expected a plane of ",
-          options.min_points,
-          " points or more among ",
-          cloud.size(),
-          ", got none; lower --min-points, raise --inlier-mm, or give --whole");
+Surfaces whole_surface(const FlatnessArguments& a, Session& session) {
+  const PosedScans scans = read_posed_scans(a.search.scans);
+  require_surface(scans.points_read, scans.stripes, a.search.scans.front());
+  session.figures.count("points", "points", scans.points_read);
+  Surfaces surfaces{scans.project.fused(), {}};
+  surfaces.indices.emplace_back(surfaces.cloud.size());
+  std::iota(surfaces.indices[0].begin(), surfaces.indices[0].end(), std::size_t{0});
   return surfaces;
+}
+
+Surfaces found_surfaces(const FlatnessArguments& a, Session& session) {
+  FoundPlanes found = find_planes(a.search, session);
+  Surfaces surfaces{std::move(found.cloud), {}};
+  for (ExtractedPlane& plane : found.planes) surfaces.indices.push_back(std::move(plane.indices));
+  return surfaces;
+}
+
+/// Flatness of a slice says nothing of the surface it was cut from.
+void add_notes(const FlatnessArguments& a,
+               const PointCloud& cloud,
+               const std::vector<MeasuredFlatness>& all,
+               Figures& figures) {
+  double band = std::numeric_limits<double>::infinity();
+  if (!a.whole) band = a.search.options.inlier_distance.value_or(default_inlier_distance(cloud));
+  std::string cut;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (is_cut(all[i].flatness, band)) cut += (cut.empty() ? "" : ", ") + std::to_string(i + 1);
+  }
+  if (!cut.empty()) {
+    figures.text("cut_planes", "planes cut by the search", cut);
+    figures.note("The points of plane " + cut +
+                 " fill the band of the search: the surface bends farther than that, and its "
+                 "flatness is larger. Raise --inlier-mm, or give --whole.");
+  }
+  if (!is_cut(all.front().flatness, band)) {
+    figures.note("Plane 1: " + flatness_verdict(all.front()));
+  }
 }
 
 bool knows_noise(const PointCloud& cloud, double other_sigma) {
@@ -77,35 +82,32 @@ bool knows_noise(const PointCloud& cloud, double other_sigma) {
          std::all_of(cloud.sigma.begin(), cloud.sigma.end(), [](float s) { return s > 0; });
 }
 
-void run(const FlatnessArguments& a, Session& session) {
-  if (!a.csv.empty()) check_output(a.csv, {".csv"});
-  a.noise.check();
-  session.step("reading", 1, 3);
-  const PosedScans scans = read_posed_scans(a.scans);
-  require_surface(scans.points_read, scans.stripes, a.scans.front());
-  PointCloud cloud = scans.project.fused();
-  session.figures.count("points", "points", scans.points_read);
-  session.step("looking for planes", 2, 3);
-  const auto surfaces = surfaces_of(cloud, a, session);
-  session.step("measuring", 3, 3);
+std::vector<MeasuredFlatness> measured(const FlatnessArguments& a,
+                                       const Surfaces& surfaces,
+                                       int num_threads) {
   FlatnessUncertaintyOptions noise = a.noise;
-  noise.seed = static_cast<unsigned>(a.seed % std::numeric_limits<unsigned>::max());
-  noise.num_threads = session.num_threads;
-  std::vector<MeasuredFlatness> measured;
-  for (const auto& indices : surfaces) {
-    MeasuredFlatness surface;
+  noise.seed = static_cast<unsigned>(a.search.seed % std::numeric_limits<unsigned>::max());
+  noise.num_threads = num_threads;
+  std::vector<MeasuredFlatness> result;
+  for (const auto& indices : surfaces.indices) {
+    MeasuredFlatness& surface = result.emplace_back();
     surface.flatness =
-        measure_flatness(cloud, indices, FlatnessOptions{.num_threads = session.num_threads});
-    if (knows_noise(cloud, noise.sigma)) {
-      surface.uncertainty = flatness_uncertainty(cloud, indices, surface.flatness, noise);
-    }
-    measured.push_back(std::move(surface));
+        measure_flatness(surfaces.cloud, indices, FlatnessOptions{.num_threads = num_threads});
+    if (!knows_noise(surfaces.cloud, noise.sigma)) continue;
+    surface.uncertainty = flatness_uncertainty(surfaces.cloud, indices, surface.flatness, noise);
   }
-  FigureTable table = flatness_table(measured);
-  if (!a.csv.empty()) write_table_csv(a.csv, table);
-  session.figures.count("plane_count", "planes", measured.size());
+  return result;
+}
+
+void run(const FlatnessArguments& a, Session& session) {
+  if (!a.search.csv.empty()) check_output(a.search.csv, {".csv"});
+  a.noise.check();
+  const Surfaces surfaces = a.whole ? whole_surface(a, session) : found_surfaces(a, session);
+  const std::vector<MeasuredFlatness> all = measured(a, surfaces, session.num_threads);
+  FigureTable table = flatness_table(all);
+  if (!a.search.csv.empty()) write_table_csv(a.search.csv, table);
   session.figures.table(std::move(table));
-  session.figures.note("Plane 1: " + flatness_verdict(measured.front()));
+  add_notes(a, surfaces.cloud, all, session.figures);
 }
 
 }  // namespace
@@ -121,9 +123,9 @@ Command measure_flatness_command() {
           "large, the more the more points there are; where the noise is known, the table says "
           "how large FLTt of a perfectly flat surface would be.",
       .examples = {"facula simulate data/scenes/flat_wall.toml --rig data/rigs/head_fs1500.toml "
-                   "--from-deg -20 --to-deg 20 --step-deg 2 --out wall",
+                   "--from-deg -20 --to-deg 20 --step-deg 1 --out wall",
                    "facula extract wall --out wall.pcd",
-                   "facula measure flatness wall.pcd --inlier-mm 20 --csv flatness.csv"},
+                   "facula measure flatness wall.pcd --csv flatness.csv"},
       .declare = [a](Arguments& arguments) { declare(arguments, *a); },
       .run = [a](Session& session) { run(*a, session); }};
 }

@@ -16,6 +16,25 @@ double angle_of(const ProfilePiece& piece) {
   return std::atan2(piece.direction.y(), piece.direction.x());
 }
 
+std::vector<FigureValue> row_of(std::size_t number,
+                                const ProfilePiece& piece,
+                                const StepMeasure& step,
+                                const ProfileLength& side) {
+  const auto points = static_cast<long long>(piece.span.last - piece.span.first);
+  std::vector<FigureValue> row{static_cast<long long>(number), points};
+  for (const double value : {1000 * piece.middle.x(),
+                             1000 * piece.middle.y(),
+                             angle_of(piece) / kDegrees.factor,
+                             1000 * piece.scatter,
+                             1000 * step.thickness,
+                             1000 * step.sigma,
+                             1000 * side.value,
+                             1000 * side.sigma}) {
+    row.emplace_back(value);
+  }
+  return row;
+}
+
 std::vector<double> millimetres(const Eigen::Vector3d& x) {
   return {1000 * x.x(), 1000 * x.y(), 1000 * x.z()};
 }
@@ -64,16 +83,7 @@ FigureTable piece_table(const std::vector<Eigen::Vector2d>& profile,
     }
     const ProfileLength side =
         side_length(profile, pieces, i, gap).value_or(ProfileLength{kUnknown, kUnknown});
-    table.rows.push_back({static_cast<long long>(i + 1),
-                          static_cast<long long>(piece.span.last - piece.span.first),
-                          1000 * piece.middle.x(),
-                          1000 * piece.middle.y(),
-                          angle_of(piece) / kDegrees.factor,
-                          1000 * piece.scatter,
-                          1000 * step.thickness,
-                          1000 * step.sigma,
-                          1000 * side.value,
-                          1000 * side.sigma});
+    table.rows.push_back(row_of(i + 1, piece, step, side));
   }
   return table;
 }

@@ -4,6 +4,7 @@
 #include <facula/acquire/core/scan_file.hpp>
 #include <facula/apps/cli/file_kind.hpp>
 #include <facula/apps/cli/output_path.hpp>
+#include <facula/apps/commands/measure_compare.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
 #include <facula/apps/commands/report.hpp>
 #include <facula/apps/commands/report_sections.hpp>
@@ -12,6 +13,7 @@
 #include <facula/reconstruct/mesh/mesh_exchange.hpp>
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace facula {
@@ -27,6 +29,9 @@ struct ReportArguments {
   std::filesystem::path grid;
   std::filesystem::path project;
   std::filesystem::path pictures;
+  std::optional<double> plane_inlier;
+  std::filesystem::path compare;
+  std::filesystem::path reference;
 };
 
 void declare(Arguments& arguments, ReportArguments& a) {
@@ -36,18 +41,30 @@ void declare(Arguments& arguments, ReportArguments& a) {
   arguments.input("--frames", a.frames, "folder where its frames lie, if not beside it");
   arguments.inputs("--scan", a.scans, "a scan: range image and planes");
   arguments.input("--project", a.project, "poses.toml: all scans together, planes, poses");
+  arguments.number("--plane-inlier-mm",
+                   a.plane_inlier,
+                   kMillimetres,
+                   "farthest from a plane that a point of it lies; more than its flatness");
   arguments.input("--mesh", a.mesh, "a mesh: three views");
+  arguments.input("--compare", a.compare, "points to show in the colours of their deviations");
+  arguments.input("--reference", a.reference, "the mesh or cloud that --compare deviates from");
   arguments.input("--map", a.map, "an occupancy map (.bt, .ot) from above");
   arguments.output("--pictures", a.pictures, "folder that also gets every picture as a .png");
   arguments.input("--grid", a.grid, "a navigation grid (.yaml) from above");
 }
 
 /// Normals tell the faces of a wall from the points in front of it.
-ReportSection planes_section(const std::string& heading, PointCloud cloud, int num_threads) {
+ReportSection planes_section(const std::string& heading,
+                             PointCloud cloud,
+                             std::optional<double> inlier_distance,
+                             int num_threads) {
   NormalOptions normals;
   normals.num_threads = num_threads;
   estimate_normals(cloud, normals);
-  return cloud_section(heading, cloud, extract_planes(cloud));
+  PlaneExtractionOptions options;
+  options.inlier_distance = inlier_distance ? *inlier_distance : default_inlier_distance(cloud);
+  options.num_threads = num_threads;
+  return cloud_section(heading, cloud, extract_planes(cloud, options), *options.inlier_distance);
 }
 
 void add_scans(const ReportArguments& a, int num_threads, Report& report) {
@@ -56,9 +73,23 @@ void add_scans(const ReportArguments& a, int num_threads, Report& report) {
     if (file_kind(path) == FileKind::kScan) {
       report.sections.push_back(scan_section(name, read_scan(path)));
     }
-    report.sections.push_back(
-        planes_section("Planes in " + name, read_posed_scans({path}).project.fused(), num_threads));
+    report.sections.push_back(planes_section("Planes in " + name,
+                                             read_posed_scans({path}).project.fused(),
+                                             a.plane_inlier,
+                                             num_threads));
   }
+}
+
+void add_comparison(const ReportArguments& a, int num_threads, Report& report) {
+  require(a.compare.empty() == a.reference.empty(),
+          "expected --compare and --reference together, got one of them; points deviate from "
+          "something");
+  if (a.compare.empty()) return;
+  const PointCloud cloud = read_posed_scans({a.compare}, false).project.fused();
+  report.sections.push_back(comparison_section(
+      a.compare.filename().string() + " against " + a.reference.filename().string(),
+      cloud,
+      deviations_from_file(cloud.points, a.reference, {.num_threads = num_threads})));
 }
 
 Report make_report(const ReportArguments& a, Session& session) {
@@ -79,13 +110,14 @@ Report make_report(const ReportArguments& a, Session& session) {
     for (const PosedCloud& scan : project.scans) poses.push_back(scan.world_from_scan);
     report.sections.push_back(project_section(project));
     report.sections.push_back(
-        planes_section("All scans together", project.fused(), session.num_threads));
+        planes_section("All scans together", project.fused(), a.plane_inlier, session.num_threads));
   }
   session.step("mesh", 4, kSteps);
   if (!a.mesh.empty()) {
     report.sections.push_back(
         mesh_section(a.mesh.filename().string(), read_any_mesh(a.mesh), session.num_threads));
   }
+  add_comparison(a, session.num_threads, report);
   session.step("maps", 5, kSteps);
   if (!a.map.empty()) {
     report.sections.push_back(
@@ -103,7 +135,7 @@ void run(const ReportArguments& a, Session& session) {
   const Report report = make_report(a, session);
   require(!report.sections.empty(),
           "expected something to show, got none; give --capture, --scan, "
-          "--project, --mesh, --map or --grid");
+          "--project, --mesh, --compare, --map or --grid");
   write_html_report(a.out, report);
   if (!a.pictures.empty()) write_report_pictures(a.pictures, report);
   std::size_t pictures = 0;
@@ -122,20 +154,21 @@ void run(const ReportArguments& a, Session& session) {
 
 Command report_command() {
   const auto a = std::make_shared<ReportArguments>();
-  return {.name = "report",
-          .summary = "show results on one HTML page",
-          .description =
-              "Puts what other commands have made onto one page with pictures and tables that "
-              "needs no other file: the found stripe over a few frames, range images, deviations "
-              "from planes, maps from above, meshes from three sides.",
-          .examples = {"facula simulate data/scenes/turntable_object.toml --rig "
-                       "data/rigs/ciclop_turntable.toml --step-deg 15 --out object",
-                       "facula extract object --out object.pcd",
-                       "facula mesh object.pcd --out object.ply",
-                       "facula report --capture object --scan object.pcd --mesh object.ply --out "
-                       "report.html"},
-          .declare = [a](Arguments& arguments) { declare(arguments, *a); },
-          .run = [a](Session& session) { run(*a, session); }};
+  return {
+      .name = "report",
+      .summary = "show results on one HTML page",
+      .description =
+          "Puts what other commands have made onto one page with pictures and tables that "
+          "needs no other file: the found stripe over a few frames, range images, deviations "
+          "from planes, maps from above, meshes from three sides.",
+      .examples = {"facula simulate data/scenes/turntable_object.toml --rig "
+                   "data/rigs/ciclop_turntable.toml --step-deg 15 --out object",
+                   "facula extract object --out object.pcd",
+                   "facula mesh object.pcd --out object.ply",
+                   "facula report --capture object --scan object.pcd --mesh object.ply --compare "
+                   "object.pcd --reference object.ply --out report.html"},
+      .declare = [a](Arguments& arguments) { declare(arguments, *a); },
+      .run = [a](Session& session) { run(*a, session); }};
 }
 
 }  // namespace facula

@@ -4,9 +4,12 @@
 #include <facula/apps/cli/arguments.hpp>
 #include <facula/apps/cli/figures.hpp>
 #include <facula/apps/cli/number_text.hpp>
+#include <facula/apps/commands/deviation_figures.hpp>
+#include <facula/apps/commands/flatness_figures.hpp>
 #include <facula/apps/commands/info_figures.hpp>
 #include <facula/apps/commands/map_figures.hpp>
 #include <facula/apps/commands/report_sections.hpp>
+#include <facula/apps/report/deviation_map.hpp>
 #include <facula/apps/report/map_top_view.hpp>
 #include <facula/apps/report/mesh_views.hpp>
 #include <facula/apps/report/plane_deviation.hpp>
@@ -58,6 +61,35 @@ ReportTable plane_table(const std::vector<ExtractedPlane>& planes) {
          fixed_text(100 * fit.system_error, 3)});
   }
   return table;
+}
+
+/// With the noise that the points know; without where they know none.
+std::vector<MeasuredFlatness> flatness_of(const PointCloud& cloud,
+                                          const std::vector<ExtractedPlane>& planes) {
+  std::vector<MeasuredFlatness> result;
+  const bool has_noise =
+      !cloud.sigma.empty() &&
+      std::all_of(cloud.sigma.begin(), cloud.sigma.end(), [](float s) { return s > 0; });
+  for (const ExtractedPlane& plane : planes) {
+    MeasuredFlatness& surface = result.emplace_back();
+    surface.flatness = measure_flatness(cloud, plane.indices);
+    if (!has_noise) continue;
+    surface.uncertainty =
+        flatness_uncertainty(cloud, plane.indices, surface.flatness, {.trials = 40});
+  }
+  return result;
+}
+
+std::string plane_caption(std::size_t number, const Flatness& flatness, double band) {
+  const std::string cut = is_cut(flatness, band)
+                              ? " The surface bends out of the band of " +
+                                    fixed_text(1000 * band, 3) +
+                                    " mm in which its points were sought (--plane-inlier-mm)."
+                              : "";
+  return "Deviations from plane " + std::to_string(number) + ": FLTt " +
+         fixed_text(1000 * flatness.total, 3) + " mm, FLTq " +
+         fixed_text(1000 * flatness.root_mean_square, 3) + " mm, minimum zone " +
+         fixed_text(1000 * flatness.minimum_zone->total, 3) + " mm." + cut;
 }
 
 }  // namespace
@@ -114,18 +146,42 @@ ReportSection scan_section(const std::string& name, const PolarScan& scan) {
 
 ReportSection cloud_section(const std::string& heading,
                             const PointCloud& cloud,
-                            const std::vector<ExtractedPlane>& planes) {
+                            const std::vector<ExtractedPlane>& planes,
+                            double band) {
   ReportSection section{heading, "", {}, {}};
   section.pictures.push_back(
       picture("The points from the front, the side and above.", scan_picture(cloud)));
   if (planes.empty()) return section;
-  section.text = "Planes found in the points; blue points lie below a plane, red ones above.";
+  section.text =
+      "Planes found in the points; blue points lie below a plane, red ones above. Flatness is that "
+      "of surface and noise together: the last columns say what noise alone would show.";
   section.tables.push_back(plane_table(planes));
-  constexpr std::size_t kMostPictures = 3;
-  for (std::size_t i = 0; i < std::min(kMostPictures, planes.size()); ++i) {
-    section.pictures.push_back(picture("Deviations from plane " + std::to_string(i + 1) + ".",
+  const std::vector<MeasuredFlatness> flatness = flatness_of(cloud, planes);
+  Figures figures;
+  figures.table(flatness_table(flatness));
+  for (ReportTable& table : report_tables("Flatness", figures)) {
+    section.tables.push_back(std::move(table));
+  }
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    section.pictures.push_back(picture(plane_caption(i + 1, flatness[i].flatness, band),
                                        plane_deviation(planes[i], cloud)));
   }
+  return section;
+}
+
+ReportSection comparison_section(const std::string& heading,
+                                 const PointCloud& cloud,
+                                 const Deviations& deviations) {
+  ReportSection section{heading, "", {}, {}};
+  section.text = deviations.has_sign
+                     ? "Red points lie outside the reference or before it, blue ones behind it."
+                     : "The reference has no sides, so these are distances.";
+  const ColorScale scale = deviation_scale(deviations.values, deviations.has_sign);
+  section.pictures.push_back(picture("Deviations of the points from the reference.",
+                                     deviation_map(cloud, deviations.values, scale)));
+  Figures figures;
+  report_deviations(deviations, figures);
+  section.tables.push_back(figure_table("Deviations", figures));
   return section;
 }
 

@@ -8,9 +8,11 @@
 #include <facula/apps/report/html_report.hpp>
 #include <facula/map/navigation_grid.hpp>
 #include <facula/map/occupancy_map.hpp>
+#include <facula/reconstruct/measure/deviation.hpp>
 #include <facula/reconstruct/measure/plane.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,10 +26,18 @@ ReportSection capture_section(const Capture& capture);
 /// Range image.
 ReportSection scan_section(const std::string& name, const PolarScan& scan);
 
-/// The cloud from three sides, its planes with their deviations (the largest three as pictures).
+/// The cloud from three sides, its planes with flatness, and a picture of each plane's deviations.
+/// `band` [m] is the inlier distance they were found with, infinite where it is not known: planes
+/// that it cut are named.
 ReportSection cloud_section(const std::string& heading,
                             const PointCloud& cloud,
-                            const std::vector<ExtractedPlane>& planes);
+                            const std::vector<ExtractedPlane>& planes,
+                            double band = std::numeric_limits<double>::infinity());
+
+/// Colour map, histogram and figures of points compared with a reference.
+ReportSection comparison_section(const std::string& heading,
+                                 const PointCloud& cloud,
+                                 const Deviations& deviations);
 
 /// Poses of a project.
 ReportSection project_section(const ScanProject& project);

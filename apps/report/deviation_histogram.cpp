@@ -106,9 +106,8 @@ Image8 deviation_histogram(const std::vector<float>& distances,
   if (curve) draw_curve(plot, histogram, options.sigma, top);
   const LengthUnit unit = length_unit_for(options.largest);
   const double end = kBeyond * options.largest * unit.per_metre;
-  draw_axes(plot,
-            {-end, end, std::string("distance from plane [") + unit.name + "]"},
-            {0, top, "points per bin [1]"});
+  draw_axes(
+      plot, {-end, end, options.label + " [" + unit.name + "]"}, {0, top, "points per bin [1]"});
   return below({plot, histogram_legend(histogram, options, plot.cols)});
 }
 

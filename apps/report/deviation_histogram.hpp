@@ -3,6 +3,7 @@
 
 #include <facula/acquire/core/image_view.hpp>
 
+#include <string>
 #include <vector>
 
 namespace facula {
@@ -12,6 +13,7 @@ struct DeviationHistogramOptions {
   double sigma = 0;       ///< of the normal distribution drawn over it [m], 0 = none
   int width = 640;        ///< of the plot area [px]
   int height = 240;       ///< of the plot area [px]
+  std::string label = "distance from plane";  ///< of the axis, without the unit
 };
 
 /// How often which signed distance [m] occurs, with mean, standard deviation and largest values

@@ -66,9 +66,11 @@ Image8 deviation_map(const PointCloud& cloud,
   shown.colors = deviation_colors(numbers, scale);
   const Image8 views = scan_picture(shown);
   const Image8 map = beside({views, color_bar(scale, std::max(60, views.rows - 40))});
-  const Image8 histogram = deviation_histogram(
-      short_numbers,
-      {.largest = scale.high / per_metre_of(scale), .width = std::clamp(map.cols - 300, 480, 900)});
+  const Image8 histogram =
+      deviation_histogram(short_numbers,
+                          {.largest = scale.high / per_metre_of(scale),
+                           .width = std::clamp(map.cols - 300, 480, 900),
+                           .label = scale.label.substr(0, scale.label.find(" ["))});
   return below({map, histogram}, 12);
 }
 
