@@ -26,8 +26,7 @@ FigureTable placed_scans(const ScanProject& project,
                      {"angle_sigma_deg", "sigma", 5},
                      {"pairs", "pairs", 0},
                      {"checked_percent", "checked", 0},
-                     {"overlap_percent", "overlap", 1},
-                     {"in_free_space_percent", "in free space", 1}},
+                     {"overlap_percent", "overlap", 1}},
                     {}};
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     const ScanPlacement& place = result.scans[i];
@@ -40,8 +39,7 @@ FigureTable placed_scans(const ScanProject& project,
                           worst_sigma(place.covariance, 3) / kDegrees.factor,
                           static_cast<long long>(place.edges),
                           100 * place.checked,
-                          100 * place.overlap,
-                          100 * place.contradiction});
+                          100 * place.overlap});
   }
   return table;
 }

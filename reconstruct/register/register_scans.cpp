@@ -121,7 +121,9 @@ RegisterScansResult register_scans(ScanProject& project, const RegisterScansOpti
   ScanNetwork network = join_scans(project, edges, options, kLooseVoxels * voxel);
 
   result.edges = merged(refined(scans, network, options, progress), edges);
-  join_scans(project, result.edges, options, kLooseVoxels * voxel);
+  network = join_scans(project, result.edges, options, kLooseVoxels * voxel);
+  drop_contradicted(network, options.num_threads, scans, result.edges);
+
   RegisterScansOptions plain = options;  // what is wrong was given up by now
   plain.graph.robust = false;
   result.scan_sigma = fitting_scan_sigma(
@@ -130,7 +132,7 @@ RegisterScansResult register_scans(ScanProject& project, const RegisterScansOpti
   if (!result.from_given) move_anchor(project, central_scan(scans, network), network);
   result.chi2 = network.chi2;
   result.degrees_of_freedom = network.degrees_of_freedom;
-  check_placements(scans, network, options.num_threads, result);
+  describe_placements(scans, network, result);
   for (std::size_t i = 0; i < project.scans.size(); ++i) {
     if (result.scans[i].placed) project.scans[i].world_from_scan = *network.world_from_scan[i];
   }

@@ -58,11 +58,10 @@ struct ScanEdge {
 /// What became of a scan.
 struct ScanPlacement {
   bool placed = false;
-  std::string reason;        ///< why it was refused; empty when placed
-  std::size_t edges = 0;     ///< kept edges it takes part in [1]
-  double checked = 0;        ///< greatest redundancy of these; 0 = one edge holds it alone [0..1]
-  double overlap = 0;        ///< share of its points that lie on another placed scan [0..1]
-  double contradiction = 0;  ///< greatest share of points that another scan looked through [0..1]
+  std::string reason;     ///< why it was refused; empty when placed
+  std::size_t edges = 0;  ///< kept edges it takes part in [1]
+  double checked = 0;     ///< greatest redundancy of these; 0 = one edge holds it alone [0..1]
+  double overlap = 0;     ///< share of its points that lie on another placed scan [0..1]
   /// Of the twist e in true pose = exp_se3(e) * estimate, against the anchor.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };

@@ -5,13 +5,20 @@
 #include <facula/reconstruct/register/register_scans.hpp>
 #include <facula/reconstruct/register/scan_network.hpp>
 
+#include <vector>
+
 namespace facula {
 
-/// Holds every scan of the network against all others and refuses those that do not stand the
-/// check. Fills what the result says of scans, from its edges and the network.
-void check_placements(const ReadyScans& scans,
-                      const ScanNetwork& network,
-                      int num_threads,
-                      RegisterScansResult& result);
+/// Holds every scan of the network against all others and gives up scans until no two that stay
+/// contradict each other: their edges are refused, and scans.refusals says why.
+void drop_contradicted(const ScanNetwork& network,
+                       int num_threads,
+                       ReadyScans& scans,
+                       std::vector<ScanEdge>& edges);
+
+/// Fills what the result says of scans, from its edges and the network.
+void describe_placements(const ReadyScans& scans,
+                         const ScanNetwork& network,
+                         RegisterScansResult& result);
 
 }  // namespace facula

@@ -109,8 +109,7 @@ void print_scans(const KnownProject& known, Outcome& outcome) {
         1000 * std::sqrt(std::max(0.0, place.covariance.diagonal().head<3>().maxCoeff())),
         place.edges,
         place.checked,
-        100 * place.overlap,
-        100 * place.contradiction);
+        100 * place.overlap);
   }
 }
 

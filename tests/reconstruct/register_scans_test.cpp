@@ -36,6 +36,7 @@ PosedCloud seen(const Scene& scene, const RigidTransform& pose, std::uint64_t nu
   posed.name = "station" + std::to_string(number);
   posed.cloud = cloud_from_scan(scan);
   posed.grid = grid_from_scan(scan);
+  posed.cloud.sigma.assign(posed.cloud.size(), 0.001F);
   Random random(1, number);
   for (std::size_t i = 0; i < posed.cloud.size(); ++i) {
     Eigen::Vector3f& p = posed.cloud.points[i];
@@ -108,12 +109,12 @@ TEST(RegisterScans, FindsTheSamePosesInAnyOrderAndRefusesAScanOfAnotherPlace) {
   const TemporaryFolder folder;
   const Scene other =
       read_scene(folder.write("other.toml",
-                              "[[object]]\nshape = 'room'\n"
+                              "[[object]]\nname = 'hall'\nshape = 'room'\n"
                               "size_mm = [3100, 9300, 4200]\n"
                               "position_mm = [0, 0, 2100]\n"
-                              "[[object]]\nshape = 'sphere'\nradius_mm = 900\n"
+                              "[[object]]\nname = 'tank'\nshape = 'sphere'\nradius_mm = 900\n"
                               "position_mm = [300, 2500, 1200]\n"
-                              "[[object]]\nshape = 'cylinder'\nradius_mm = 200\n"
+                              "[[object]]\nname = 'post'\nshape = 'cylinder'\nradius_mm = 200\n"
                               "height_mm = 4200\nposition_mm = [-900, -2, 2100]\n"));
   ScanProject project;
   project.scans.push_back(seen(other, stand(0.4, 0.2, 10), 9));
