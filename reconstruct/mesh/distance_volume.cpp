@@ -99,60 +99,61 @@ std::vector<std::vector<DistanceVolume::Visit>> DistanceVolume::visits_of(
   return visits;
 }
 
-void DistanceVolume::add(const RangeSurface& surface) {
-  const auto visits = visits_of(surface);
-  // Which triangles each touched brick has, in their order.
-  struct Touched {
-    std::uint32_t brick;
-    std::uint32_t begin;
-    std::uint32_t end;
-  };
+/// Sorts the visits by brick; within a brick they keep their order.
+DistanceVolume::Lists DistanceVolume::by_brick(const std::vector<std::vector<Visit>>& visits) {
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  std::vector<Touched> touched;
-  std::vector<std::uint32_t> slot_of_brick;
-  std::vector<std::uint32_t> slots;
+  Lists lists;
+  std::vector<std::uint32_t> list_of_brick;
+  std::vector<std::uint32_t> list_of_visit;
   std::uint64_t last_key = ~std::uint64_t{0};
-  std::uint32_t last_slot = 0;
+  std::uint32_t list = 0;
   for (const auto& chunk : visits) {
     for (const Visit& visit : chunk) {
-      if (visit.brick != last_key) {
+      if (visit.brick != last_key) {  // neighbouring triangles mostly meet the same brick
         const std::uint32_t brick = find_or_add(visit.brick);
-        if (slot_of_brick.size() <= brick) slot_of_brick.resize(bricks_.size(), kNone);
-        if (slot_of_brick[brick] == kNone) {
-          slot_of_brick[brick] = static_cast<std::uint32_t>(touched.size());
-          touched.push_back({brick, 0, 0});
+        list_of_brick.resize(std::max<std::size_t>(list_of_brick.size(), brick + 1), kNone);
+        if (list_of_brick[brick] == kNone) {
+          list_of_brick[brick] = static_cast<std::uint32_t>(lists.bricks.size());
+          lists.bricks.push_back({brick, 0, 0});
         }
         last_key = visit.brick;
-        last_slot = slot_of_brick[brick];
+        list = list_of_brick[brick];
       }
-      ++touched[last_slot].end;
-      slots.push_back(last_slot);
+      ++lists.bricks[list].end;
+      list_of_visit.push_back(list);
     }
   }
-  std::uint32_t begin = 0;
-  for (Touched& t : touched) {
-    const std::uint32_t count = t.end;
-    t.begin = t.end = begin;
+  std::size_t begin = 0;
+  for (BrickList& entry : lists.bricks) {
+    const std::size_t count = entry.end;
+    entry.begin = entry.end = begin;
     begin += count;
   }
-  std::vector<std::uint32_t> triangles(slots.size());
+  lists.triangles.resize(list_of_visit.size());
   std::size_t next = 0;
   for (const auto& chunk : visits) {
-    for (const Visit& visit : chunk) triangles[touched[slots[next++]].end++] = visit.triangle;
+    for (const Visit& visit : chunk) {
+      lists.triangles[lists.bricks[list_of_visit[next++]].end++] = visit.triangle;
+    }
   }
+  return lists;
+}
+
+void DistanceVolume::add(const RangeSurface& surface) {
+  const Lists lists = by_brick(visits_of(surface));
   const auto truncation = static_cast<float>(options_.truncation / options_.voxel);
   const auto fill = [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      const Touched& t = touched[i];
-      Brick& brick = bricks_[t.brick];
-      for (std::uint32_t k = t.begin; k < t.end; ++k) {
-        const TriangleMesh::Triangle& triangle = surface.triangles[triangles[k]];
-        SightPrism(surface, triangle, options_.voxel, truncation).add_to(places_[t.brick], brick);
+      const BrickList& list = lists.bricks[i];
+      for (std::size_t k = list.begin; k < list.end; ++k) {
+        const TriangleMesh::Triangle& triangle = surface.triangles[lists.triangles[k]];
+        const SightPrism prism(surface, triangle, options_.voxel, truncation);
+        prism.add_to(places_[list.brick], bricks_[list.brick]);
       }
     }
   };
   parallel_for(
-      touched.size(), fill, {.num_threads = options_.num_threads, .chunk = kBricksPerChunk});
+      lists.bricks.size(), fill, {.num_threads = options_.num_threads, .chunk = kBricksPerChunk});
 }
 
 std::vector<std::uint64_t> bricks_of(const RangeSurface& surface,

@@ -78,7 +78,17 @@ class DistanceVolume {
     std::uint64_t brick;
     std::uint32_t triangle;
   };
+  struct BrickList {
+    std::uint32_t brick = 0;
+    std::size_t begin = 0;  ///< of its triangles in Lists::triangles
+    std::size_t end = 0;
+  };
+  struct Lists {
+    std::vector<BrickList> bricks;
+    std::vector<std::uint32_t> triangles;
+  };
   std::vector<std::vector<Visit>> visits_of(const RangeSurface& surface) const;
+  Lists by_brick(const std::vector<std::vector<Visit>>& visits);
   std::uint32_t find_or_add(std::uint64_t key);
 
   DistanceVolumeOptions options_;

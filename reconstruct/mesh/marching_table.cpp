@@ -10,6 +10,18 @@ using Loop = std::vector<int>;  // edges of a cell, one after the other
 using CellTriangles = std::vector<std::array<std::uint8_t, 3>>;
 
 constexpr int kNoEdge = -1;
+constexpr std::array<CellEdge, 12> kCellEdges{{{0, 0},
+                                               {0, 2},
+                                               {0, 4},
+                                               {0, 6},
+                                               {1, 0},
+                                               {1, 1},
+                                               {1, 4},
+                                               {1, 5},
+                                               {2, 0},
+                                               {2, 1},
+                                               {2, 2},
+                                               {2, 3}}};
 
 int edge_between(int a, int b) {
   const auto& edges = cell_edges();
@@ -124,24 +136,12 @@ std::array<CellTriangles, 256> make_table() {
 }  // namespace
 
 const std::array<CellEdge, 12>& cell_edges() {
-  static const std::array<CellEdge, 12> kEdges{{{0, 0},
-                                                {0, 2},
-                                                {0, 4},
-                                                {0, 6},
-                                                {1, 0},
-                                                {1, 1},
-                                                {1, 4},
-                                                {1, 5},
-                                                {2, 0},
-                                                {2, 1},
-                                                {2, 2},
-                                                {2, 3}}};
-  return kEdges;
+  return kCellEdges;
 }
 
 const std::vector<std::array<std::uint8_t, 3>>& cell_triangles(std::uint8_t inside) {
-  static const std::array<CellTriangles, 256> kTable = make_table();
-  return kTable[inside];
+  static const std::array<CellTriangles, 256> table = make_table();
+  return table[inside];
 }
 
 }  // namespace facula

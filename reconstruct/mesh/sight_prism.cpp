@@ -63,7 +63,7 @@ SightPrism::SightPrism(const RangeSurface& surface,
 }
 
 double SightPrism::bricks_at_most() const {
-  double count = 1.0 + (last_slice_ - first_slice_) / kBrickSide;
+  double count = 1.0 + static_cast<double>(last_slice_ - first_slice_) / kBrickSide;
   for (int d = 0; d < 2; ++d) {
     float low = INFINITY;
     float high = -INFINITY;

@@ -16,6 +16,7 @@ namespace {
 std::vector<RangeSurface> surfaces_of(const ScanProject& project,
                                       const VolumetricOptions& options) {
   std::vector<RangeSurface> surfaces;
+  surfaces.reserve(project.scans.size());
   for (const PosedCloud& scan : project.scans) {
     surfaces.push_back(range_surface(scan, range_surface_options(options)));
   }
@@ -24,6 +25,7 @@ std::vector<RangeSurface> surfaces_of(const ScanProject& project,
 
 std::vector<double> steps_of(const std::vector<RangeSurface>& surfaces) {
   std::vector<double> steps;
+  steps.reserve(surfaces.size());
   for (const RangeSurface& s : surfaces) steps.push_back(s.triangles.empty() ? 0 : s.step);
   return steps;
 }

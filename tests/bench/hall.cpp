@@ -95,9 +95,9 @@ PosedCloud hall_scan(std::size_t station, const HallOptions& options) {
 }
 
 double distance_to_hall(const Eigen::Vector3d& point) {
-  static const std::vector<Box> kColumns = columns();
+  static const std::vector<Box> all = columns();
   double nearest = distance_to_box(kHall, point);
-  for (const Box& box : kColumns) nearest = std::min(nearest, distance_to_box(box, point));
+  for (const Box& box : all) nearest = std::min(nearest, distance_to_box(box, point));
   return nearest;
 }
 

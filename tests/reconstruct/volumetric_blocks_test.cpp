@@ -80,6 +80,7 @@ TEST(VolumetricBlocks, ReadNoScanForABlockThatItDoesNotReach) {
 
 TEST(VolumetricBlocks, SplitsBricksIntoBoxesThatHoldEachOnce) {
   std::vector<BrickPlace> bricks;
+  bricks.reserve(2000);
   for (int i = 0; i < 2000; ++i) bricks.emplace_back(i % 40, (i / 40) % 10, i * i % 7);
   std::sort(bricks.begin(), bricks.end(), [](const BrickPlace& a, const BrickPlace& b) {
     return brick_key(a) < brick_key(b);
