@@ -17,6 +17,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 using HalfEdge = Surface::Halfedge_index;
 
+constexpr double kSmall = 0.4;            ///< share of the mesh's extent [1]
 constexpr std::size_t kMostEdges = 4000;  ///< minutes of work beyond [1]
 
 struct Loop {
@@ -45,7 +46,9 @@ std::vector<Loop> loops_of(const Surface& surface) {
   return loops;
 }
 
-bool fill(Surface& surface, HalfEdge start) {
+/// A patch of continuous slope where the hole is small beside the mesh; a large one is spanned like
+/// a skin, since its rim says little about its middle (half a sphere would be blown up).
+bool fill(Surface& surface, HalfEdge start, bool small) {
   std::vector<Surface::Face_index> faces;
   std::vector<Surface::Vertex_index> vertices;
   CGAL::Polygon_mesh_processing::triangulate_refine_and_fair_hole(
@@ -53,7 +56,7 @@ bool fill(Surface& surface, HalfEdge start) {
       start,
       std::back_inserter(faces),
       std::back_inserter(vertices),
-      CGAL::parameters::use_delaunay_triangulation(true));
+      CGAL::parameters::use_delaunay_triangulation(true).fairing_continuity(small ? 1 : 0));
   return !faces.empty();
 }
 
@@ -63,10 +66,13 @@ TriangleMesh fill_holes(const TriangleMesh& mesh, double max_diameter, std::size
   require(max_diameter >= 0, "max_diameter is ", max_diameter, " m; give 0 or more");
   Surface surface = to_cgal<Kernel::Point_3>(mesh);
   const std::size_t before = surface.number_of_vertices();
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& v : mesh.vertices) box.extend(v);
+  const double extent = mesh.vertices.empty() ? 0 : box.diagonal().norm();
   std::size_t count = 0;
   for (const Loop& loop : loops_of(surface)) {
     if (loop.diameter > max_diameter || loop.edges > kMostEdges) continue;
-    if (fill(surface, loop.start)) ++count;
+    if (fill(surface, loop.start, loop.diameter < kSmall * extent)) ++count;
   }
   if (filled != nullptr) *filled = count;
   TriangleMesh result = from_cgal(surface);

@@ -51,8 +51,8 @@ TriangleMesh wrap_points(const PointCloud& cloud, const AlphaWrapOptions& option
 /// The same around the triangles of a mesh, of any quality. alpha and offset must be given.
 TriangleMesh wrap_mesh(const TriangleMesh& mesh, const AlphaWrapOptions& options);
 
-/// The finite points of a cloud with their attributes. Throws Error when there are fewer than 4, or
-/// all lie on one line or in one spot.
+/// The finite points of a cloud with their attributes, one where several stand in one place. Throws
+/// Error when fewer than 4 are finite, or all lie on one line or in one spot.
 PointCloud surface_points(const PointCloud& cloud);
 
 /// Long enough to reach over a few missing points and from stripe to stripe [m].

@@ -34,6 +34,12 @@ std::vector<Oriented> oriented_points(const PointCloud& cloud, const Eigen::Vect
   return points;
 }
 
+/// CGAL's order follows the addresses of its cells, which differ from run to run.
+void put_in_order(std::vector<TriangleMesh::Triangle>& triangles) {
+  for (auto& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(triangles.begin(), triangles.end());
+}
+
 }  // namespace
 
 void PoissonOptions::check() const {
@@ -81,6 +87,7 @@ TriangleMesh mesh_poisson(const PointCloud& cloud, const PoissonOptions& options
           points.size(),
           " points; check that the normals all look outward");
   TriangleMesh mesh = from_cgal(surface);
+  put_in_order(mesh.triangles);
   for (Eigen::Vector3f& v : mesh.vertices) v += centre;
   orient_by_points(mesh, even);
   return mesh;

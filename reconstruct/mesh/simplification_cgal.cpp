@@ -20,6 +20,8 @@ namespace sms = CGAL::Surface_mesh_simplification;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
+constexpr int kAttempts = 6;
+
 /// Ends at a number of triangles or at a cost, whichever comes first.
 class Stop {
  public:
@@ -72,13 +74,22 @@ TriangleMesh simplified(const TriangleMesh& mesh, const SimplifyOptions& options
     return collapsed(mesh, options.triangles, std::numeric_limits<double>::infinity());
   }
   // A quadric is a sum of squared distances, so its root bounds each of them, but only to the
-  // planes of the triangles: what was reached is measured.
-  double bound = options.max_error;
-  for (int attempt = 0; attempt < 6; ++attempt, bound /= 2) {
+  // planes of the triangles: what was reached is measured, and the bound on the quadric bisected.
+  TriangleMesh best = mesh;
+  double kept = 0;
+  double exceeded = 2 * options.max_error;
+  for (int attempt = 0; attempt < kAttempts && exceeded > 1.2 * kept; ++attempt) {
+    const double bound = (kept + exceeded) / 2;
     TriangleMesh result = collapsed(mesh, options.triangles, bound * bound);
-    if (largest_distance(mesh, result, options.num_threads) <= options.max_error) return result;
+    if (largest_distance(mesh, result, options.num_threads) > options.max_error) {
+      exceeded = bound;
+      continue;
+    }
+    kept = bound;
+    best = std::move(result);
+    if (attempt == 0) break;  // the whole bound was of use
   }
-  return mesh;
+  return best;
 }
 
 }  // namespace facula
