@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 namespace facula {
 namespace {
@@ -18,8 +19,8 @@ constexpr std::size_t kFewestPoints = 12;  // as register_pair() [1]
 /// The coarsest level that still has more points than wanted, or the finest.
 const PyramidLevel& level_for(const ScanPyramid& scan) {
   require(!scan.levels.empty(), "the scan ", scan.name, " has no levels; use build_pyramid()");
-  for (auto level = scan.levels.rbegin(); level != scan.levels.rend(); ++level) {
-    if (static_cast<double>(level->cloud.size()) >= kPoints) return *level;
+  for (const PyramidLevel& level : std::views::reverse(scan.levels)) {
+    if (static_cast<double>(level.cloud.size()) >= kPoints) return level;
   }
   return scan.levels.front();
 }

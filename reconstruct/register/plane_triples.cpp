@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 
 #include <Eigen/Dense>
 
@@ -71,8 +72,8 @@ RigidTransform pose_of(const Eigen::Matrix3d& s,
 
 /// The coarsest level with enough points, or the finest.
 const PyramidLevel& level_for(const ScanPyramid& scan) {
-  for (auto level = scan.levels.rbegin(); level != scan.levels.rend(); ++level) {
-    if (level->cloud.size() >= kPoints) return *level;
+  for (const PyramidLevel& level : std::views::reverse(scan.levels)) {
+    if (level.cloud.size() >= kPoints) return level;
   }
   return scan.levels.front();
 }
