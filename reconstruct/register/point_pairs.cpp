@@ -159,6 +159,7 @@ void PairFinder::weigh(PointPair& pair) const {
     const Eigen::Matrix3d spread = plane_like(pair.source_normal, source_along_, source_across) +
                                    plane_like(pair.target_normal, target_along_, target_across);
     pair.weight = spread.inverse();
+    variance = normal.dot(spread * normal);
   }
   pair.weight *= 2 / (double(source.doubt) + double(target.doubt));
   pair.plane_distance = normal.dot(pair.offset);

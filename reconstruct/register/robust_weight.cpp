@@ -7,27 +7,27 @@ namespace facula {
 namespace {
 
 RobustWeight huber(double u) {
-  constexpr double k = 1.345;
+  constexpr double kBound = 1.345;
   const double size = std::abs(u);
-  return size <= k ? RobustWeight{1, 1} : RobustWeight{k / size, 0};
+  return size <= kBound ? RobustWeight{1, 1} : RobustWeight{kBound / size, 0};
 }
 
 RobustWeight cauchy(double u) {
-  constexpr double k2 = 2.385 * 2.385;
-  const double d = k2 + u * u;
-  return {k2 / d, k2 * (k2 - u * u) / (d * d)};
+  constexpr double kSquare = 2.385 * 2.385;
+  const double d = kSquare + u * u;
+  return {kSquare / d, kSquare * (kSquare - u * u) / (d * d)};
 }
 
 RobustWeight geman_mcclure(double u) {
-  constexpr double k2 = 3.0 * 3.0;
-  const double d = k2 + u * u;
-  return {k2 * k2 / (d * d), k2 * k2 * (k2 - 3 * u * u) / (d * d * d)};
+  constexpr double kSquare = 3.0 * 3.0;
+  const double d = kSquare + u * u;
+  return {kSquare * kSquare / (d * d), kSquare * kSquare * (kSquare - 3 * u * u) / (d * d * d)};
 }
 
 RobustWeight tukey(double u) {
-  constexpr double k2 = 4.685 * 4.685;
-  const double t = 1 - u * u / k2;
-  return t <= 0 ? RobustWeight{0, 0} : RobustWeight{t * t, t * (t - 4 * u * u / k2)};
+  constexpr double kSquare = 4.685 * 4.685;
+  const double t = 1 - u * u / kSquare;
+  return t <= 0 ? RobustWeight{0, 0} : RobustWeight{t * t, t * (t - 4 * u * u / kSquare)};
 }
 
 }  // namespace
