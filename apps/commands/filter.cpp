@@ -200,7 +200,7 @@ Command filter_command() {
                        "facula extract room --out room.pcd",
                        "facula filter room.pcd --farthest-mm 4000 --max-incidence-deg 80 --out "
                        "clean.pcd",
-                       "facula filter room.pcd --statistical 16 --smooth-mm 30 --out smooth.pcd",
+                       "facula filter room.pcd --statistical 16 --smooth-mm 150 --out smooth.pcd",
                        "facula filter room.pcd --radius-mm 100 --voxel-mm 20 --out thin.ply"},
           .declare = [a](Arguments& arguments) { declare(arguments, *a); },
           .run = [a](Session& session) { run(*a, session); }};

@@ -17,6 +17,7 @@ namespace facula {
 namespace {
 
 constexpr double kReach = 2.5;         // of the weights, in radii: 4 % of the greatest
+constexpr double kLeastWidth = 0.1;    // variance across over along, of neighbours in a plane
 constexpr double kLeastCosine = 0.17;  // steeper rays count as 80 degrees
 
 using Row = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
@@ -48,7 +49,9 @@ class Smoother {
     const auto near = tree_.within(cloud_.points[i], float(kReach * options_.radius));
     const std::size_t coefficients = options_.order == 1 ? 3 : 6;
     if (near.size() < 2 * coefficients) return std::nullopt;
-    const Eigen::Matrix3d axes = plane_axes(i, near);
+    const auto plane = plane_axes(i, near);
+    if (!plane) return std::nullopt;
+    const Eigen::Matrix3d& axes = *plane;
     const Eigen::Vector3d normal = axes.col(0);
     Square squares = Square::Zero(Eigen::Index(coefficients), Eigen::Index(coefficients));
     Square spread = squares;  // of the weighted noise
@@ -105,9 +108,10 @@ class Smoother {
     return sigma > 0 ? sigma * cosine(i, normal) : options_.radius;
   }
 
-  /// Columns: normal, two directions in the plane of the neighbours.
-  Eigen::Matrix3d plane_axes(std::size_t i,
-                             const std::vector<NearestNeighbours::Neighbour>& near) const {
+  /// Columns: normal, two directions in the plane of the neighbours. Nothing where they lie along a
+  /// line, as those of a single stripe do: they say nothing of the surface across it.
+  std::optional<Eigen::Matrix3d> plane_axes(
+      std::size_t i, const std::vector<NearestNeighbours::Neighbour>& near) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     double weights = 0;
@@ -119,7 +123,9 @@ class Smoother {
       weights += w;
     }
     const Eigen::Matrix3d scatter = squares - sum * sum.transpose() / weights;
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+    if (!(solver.eigenvalues()[1] > kLeastWidth * solver.eigenvalues()[2])) return std::nullopt;
+    return solver.eigenvectors();
   }
 
   const PointCloud& cloud_;

@@ -29,7 +29,8 @@ struct SmoothedCloud {
 /// is a sum a_i z_i, hence its variance the sum of a_i^2 sigma_i^2 (sigma taken along the normal):
 /// that is the point's new sigma, along the ray again. It does not hold what the surface's bending
 /// between the neighbours adds. Points with fewer than twice as many neighbours (within 2.5 radii)
-/// as coefficients, and points that are not finite, stay as they are.
+/// as coefficients, points whose neighbours lie along a line (a single stripe: choose a larger
+/// radius), and points that are not finite, stay as they are.
 SmoothedCloud smooth(const PointCloud& cloud, const SmoothingOptions& options);
 
 }  // namespace facula

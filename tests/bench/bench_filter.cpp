@@ -104,15 +104,24 @@ void smoothing_facula(benchmark::State& state) {
   report(state, count);
 }
 
-BENCHMARK(statistical_facula)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(statistical_pcl)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(statistical_pcl_two_threads)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(normals_facula)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(normals_pcl_omp)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(normals_facula_grid)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(thinning_facula)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(thinning_pcl)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(smoothing_facula)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(statistical_facula)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(statistical_pcl)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(statistical_pcl_two_threads)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(normals_facula)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(normals_pcl_omp)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(normals_facula_grid)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(thinning_facula)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(thinning_pcl)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(smoothing_facula)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 }  // namespace
 }  // namespace facula
