@@ -123,9 +123,9 @@ Command measure_flatness_command() {
           "large, the more the more points there are; where the noise is known, the table says "
           "how large FLTt of a perfectly flat surface would be.",
       .examples = {"facula simulate data/scenes/flat_wall.toml --rig data/rigs/head_fs1500.toml "
-                   "--from-deg -20 --to-deg 20 --step-deg 1 --out wall",
+                   "--from-deg -20 --to-deg 20 --step-deg 2 --out wall",
                    "facula extract wall --out wall.pcd",
-                   "facula measure flatness wall.pcd --csv flatness.csv"},
+                   "facula measure flatness wall.pcd --inlier-mm 20 --csv flatness.csv"},
       .declare = [a](Arguments& arguments) { declare(arguments, *a); },
       .run = [a](Session& session) { run(*a, session); }};
 }
