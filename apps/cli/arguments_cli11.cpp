@@ -66,6 +66,7 @@ void parse_arguments(const Arguments& arguments, const std::vector<std::string>&
   app.set_help_flag();
   for (const ArgumentSpec& spec : arguments.specs()) declare(app, spec);
   std::vector<std::string> reversed(words.rbegin(), words.rend());
+  std::replace(reversed.begin(), reversed.end(), std::string("-o"), std::string("--out"));
   try {
     app.parse(reversed);
   } catch (const CLI::RequiredError& error) {

@@ -25,6 +25,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 namespace facula {
 namespace {
 
@@ -101,8 +103,7 @@ void print_scans(const KnownProject& known, Outcome& outcome) {
     outcome.worst_angle = std::max(outcome.worst_angle, angle);
     outcome.worst_distance = std::max(outcome.worst_distance, distance);
     std::printf(
-        "  %-10s off %.4f deg %.4f mm; sigma %.4f mm; %zu edges, checked %.2f, overlap %.0f %%, in "
-        "free space %.1f %%\n",
+        "  %-10s off %.4f deg %.4f mm; sigma %.4f mm; %zu edges, checked %.2f, overlap %.0f %%\n",
         name.c_str(),
         angle / kDegree,
         1000 * distance,
@@ -111,6 +112,34 @@ void print_scans(const KnownProject& known, Outcome& outcome) {
         place.checked,
         100 * place.overlap);
   }
+}
+
+/// Worst errors when the placed scans, as one body, are laid onto the truth.
+std::pair<double, double> errors_as_one_body(const KnownProject& known, const Outcome& outcome) {
+  constexpr std::size_t kEvery = 100;
+  std::vector<Eigen::Vector3d> from;
+  std::vector<Eigen::Vector3d> to;
+  for (std::size_t i = 0; i < known.truth.size(); ++i) {
+    const auto& points = known.project.scans[i].cloud.points;
+    for (std::size_t p = 0; outcome.result.scans[i].placed && p < points.size(); p += kEvery) {
+      from.push_back(outcome.poses[i] * points[p].cast<double>());
+      to.push_back(known.truth[i] * points[p].cast<double>());
+    }
+  }
+  const auto matrix = [](std::vector<Eigen::Vector3d>& v) {
+    return Eigen::Map<Eigen::Matrix3Xd>(v.front().data(), 3, static_cast<Eigen::Index>(v.size()));
+  };
+  std::pair<double, double> worst{0, 0};
+  if (from.empty()) return worst;
+  const RigidTransform back =
+      RigidTransform::from_matrix(Eigen::umeyama(matrix(from), matrix(to), false));
+  for (std::size_t i = 0; i < known.truth.size(); ++i) {
+    if (!outcome.result.scans[i].placed) continue;
+    const RigidTransform found = back * outcome.poses[i];
+    worst.first = std::max(worst.first, rotation_angle(known.truth[i].inverse() * found));
+    worst.second = std::max(worst.second, (known.truth[i].translation - found.translation).norm());
+  }
+  return worst;
 }
 
 void report(const char* what, const KnownProject& known, Outcome& outcome) {
@@ -124,6 +153,10 @@ void report(const char* what, const KnownProject& known, Outcome& outcome) {
               1000 * outcome.worst_distance,
               1000 * outcome.result.scan_sigma,
               outcome.seconds);
+  const auto [angle, distance] = errors_as_one_body(known, outcome);
+  std::printf("  all placed scans laid onto the truth as one body: worst %.4f deg %.4f mm\n",
+              angle / kDegree,
+              1000 * distance);
   std::fflush(stdout);
 }
 
