@@ -17,6 +17,7 @@ namespace facula {
 namespace {
 
 constexpr std::size_t kMinPoints = 12;
+constexpr double kLeastSampling = 1e-5;  // of the diameter; nearer points are one point twice
 constexpr double kVoxelPerSampling = 2;  // some two points share a voxel: noise is averaged
 
 /// The scan's finite points, with the normals its grid gives where it brings none of its own.
@@ -66,15 +67,17 @@ double diagonal(const PointCloud& cloud) {
   return static_cast<double>((high - low).matrix().norm());
 }
 
-/// A voxel that the scan fills: by the coarser of its two sampling distances.
-double voxel_of(const PointCloud& cloud, const std::string& name) {
-  const SamplingDistance sampling = sampling_distance(cloud);
-  const double voxel = kVoxelPerSampling * std::max(sampling.nearest, sampling.across);
-  require(voxel > 0,
-          "most points of scan '",
-          name,
-          "' lie on one another; give finest_voxel or remove the duplicates");
-  return voxel;
+/// A voxel that the scan fills: by the coarser of its two sampling distances. Where most points are
+/// duplicates, those of the distinct points count.
+double voxel_of(const PointCloud& cloud, double diameter) {
+  const auto coarser = [](const PointCloud& points) {
+    const SamplingDistance sampling = sampling_distance(points);
+    return std::max(sampling.nearest, sampling.across);
+  };
+  const double least = kLeastSampling * diameter;
+  const double sampling = coarser(cloud);
+  if (sampling > least) return kVoxelPerSampling * sampling;
+  return kVoxelPerSampling * std::max(least, coarser(thin_by_voxel(cloud, least)));
 }
 
 /// Thins the cloud; `merged` says how many scan points each of its points stands for, before and
@@ -113,7 +116,8 @@ ScanPyramid build_pyramid(const PosedCloud& scan, const PyramidOptions& options)
   pyramid.name = scan.name;
   pyramid.oriented = !cloud.sensor_origin.empty();
   pyramid.diameter = diagonal(cloud);
-  double voxel = options.finest_voxel > 0 ? options.finest_voxel : voxel_of(cloud, scan.name);
+  double voxel =
+      options.finest_voxel > 0 ? options.finest_voxel : voxel_of(cloud, pyramid.diameter);
   const bool own_normals = !cloud.normals.empty();
   std::vector<float> merged(cloud.size(), 1.0F);
   for (int level = 0; level < options.levels; ++level, voxel *= 2) {
