@@ -88,8 +88,9 @@ Deviations deviations_from_file(const std::vector<Eigen::Vector3f>& points,
     return deviations_from_mesh(points, read_mesh(reference), options);
   }
   PointCloud cloud = read_posed_scans({reference}).project.fused();
-  // Normals of a cloud that knows no sensor look either way: a sign would mean nothing.
-  if (cloud.normals.empty() && !cloud.sensor_origin.empty()) {
+  // Turned to the sensor; a cloud that knows none counts as seen from its frame's origin.
+  constexpr std::size_t kFewest = 3;  // points that a normal is estimated from
+  if (cloud.normals.empty() && !cloud.sensor_origin.empty() && cloud.size() >= kFewest) {
     estimate_normals(cloud, {.num_threads = options.num_threads});
   }
   return deviations_from_cloud(points, cloud, options);
