@@ -56,7 +56,7 @@ class Smoother {
     Square squares = Square::Zero(Eigen::Index(coefficients), Eigen::Index(coefficients));
     Square spread = squares;  // of the weighted noise
     Row right = Row::Zero(Eigen::Index(coefficients));
-    double misfit = 0;
+    double squared = 0;
     double weights = 0;
     for (const auto& n : near) {
       const Eigen::Vector3d d = (cloud_.points[n.index] - cloud_.points[i]).cast<double>();
@@ -69,21 +69,21 @@ class Smoother {
       squares += w * row * row.transpose();
       spread += w * w * sigma * sigma * row * row.transpose();
       right += w * z * row;
-      misfit += w * z * z;
-      weights += w;
+      squared += w * z * z;
+      weights += w * sigma * sigma;
     }
     const Eigen::LDLT<Square> solver(squares);
     const Row surface = solver.solve(right);
     const Row share = solver.solve(Row::Unit(Eigen::Index(coefficients), 0));
     Landing landing{normal, surface[0], std::sqrt(std::max(0.0, share.dot(spread * share)))};
     if (!std::isfinite(landing.height) || !std::isfinite(landing.sigma)) return std::nullopt;
-    if (!has_sigma()) {
-      // Without sigmas the scatter about the surface tells the noise; the fit took its share of it.
-      const double freedom = weights - Square(solver.solve(spread)).trace();
-      if (!(freedom > 0)) return std::nullopt;
-      const double variance = std::max(0.0, misfit - right.dot(surface)) / freedom;
-      landing.sigma *= std::sqrt(variance);
-    }
+    // The mean weighted square of the residuals; the fit took its share of it.
+    const double freedom = weights - Square(solver.solve(spread)).trace();
+    if (!(freedom > 0)) return std::nullopt;
+    const double misfit = std::max(0.0, squared - right.dot(surface)) / freedom;
+    if (has_sigma() && misfit > options_.max_misfit) return std::nullopt;
+    // Without sigmas the scatter about the surface tells the noise.
+    if (!has_sigma()) landing.sigma *= std::sqrt(misfit);
     return landing;
   }
 
@@ -146,6 +146,7 @@ Eigen::Vector3f facing(const PointCloud& cloud, std::size_t i, const Eigen::Vect
 void SmoothingOptions::check() const {
   require(radius > 0 && std::isfinite(radius), "radius is ", radius, " m; give a length above 0");
   require(order == 1 || order == 2, "order is ", order, "; give 1 (plane) or 2 (paraboloid)");
+  require(max_misfit > 0, "max_misfit is ", max_misfit, "; give a number above 0");
   require(default_sigma >= 0, "default_sigma is ", default_sigma, " m; give a length of 0 or more");
   require(num_threads >= 0, "num_threads is ", num_threads, "; give 0 (all cores) or more");
 }

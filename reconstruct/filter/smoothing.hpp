@@ -11,6 +11,7 @@ struct SmoothingOptions {
   double radius = 0;         ///< half width (1 sigma) of the Gaussian weights [m], above 0
   int order = 2;             ///< of the local surface: 1 = plane, 2 = paraboloid [1]
   double default_sigma = 0;  ///< of points without sigma [m]; 0 = from how well the surfaces fit
+  double max_misfit = 2;     ///< reduced chi-square of a surface that is moved onto [1]
   int num_threads = 0;       ///< 0 = all cores [1]
 
   void check() const;
@@ -30,7 +31,8 @@ struct SmoothedCloud {
 /// that is the point's new sigma, along the ray again. It does not hold what the surface's bending
 /// between the neighbours adds. Points with fewer than twice as many neighbours (within 2.5 radii)
 /// as coefficients, points whose neighbours lie along a line (a single stripe: choose a larger
-/// radius), and points that are not finite, stay as they are.
+/// radius), points whose surface misses its neighbours by more than their sigmas explain (an edge
+/// or a bend within the radius), and points that are not finite, stay as they are.
 SmoothedCloud smooth(const PointCloud& cloud, const SmoothingOptions& options);
 
 }  // namespace facula

@@ -143,7 +143,25 @@ TEST(Smooth, FollowsACurvedSurfaceWithTheSecondOrder) {
   EXPECT_GT(second.first, 0.8);
   EXPECT_LT(second.first, 1.2);
   // A plane through the neighbours misses the bending by about bend * radius^2, over its sigma.
-  EXPECT_GT(smoothed_errors(2, {.radius = 0.06, .order = 1}).first, 2);
+  const SmoothingOptions plane{.radius = 0.06, .order = 1, .max_misfit = 1e9};
+  EXPECT_GT(smoothed_errors(2, plane).first, 2);
+}
+
+TEST(Smooth, DoesNotMovePointsAcrossAnEdge) {
+  // A step of 0.3 along x = 0, fifty sigmas high.
+  PointCloud cloud = noisy_bowl(0, 6);
+  for (auto& p : cloud.points) p.z() += p.x() > 0 ? 0.3F : 0.0F;
+  const SmoothedCloud after = smooth(cloud, {.radius = 0.06});
+  double chi2 = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f& p = after.cloud.points[i];
+    if (p.head<2>().cwiseAbs().maxCoeff() > 0.9F) continue;
+    chi2 += std::pow((p.z() - (cloud.points[i].x() > 0 ? 0.3F : 0.0F)) / after.cloud.sigma[i], 2);
+    ++count;
+  }
+  EXPECT_LT(chi2 / count, 1.5);
+  EXPECT_GT(after.moved, cloud.size() / 2);
 }
 
 TEST(Smooth, TakesTheNoiseFromTheScatterWithoutSigmas) {
