@@ -41,10 +41,13 @@ long genus_of(const MeshTopology& topology, std::size_t fans, const MeshStatisti
   return static_cast<long>(statistics.components) - euler / 2;
 }
 
-void add_part(std::ostringstream& sentence, std::size_t count, const char* what) {
+void add_part(std::ostringstream& sentence,
+              std::size_t count,
+              const char* one,
+              const char* several) {
   if (count == 0) return;
   if (!sentence.str().empty()) sentence << ", ";
-  sentence << count << ' ' << what << (count == 1 ? "" : "s");
+  sentence << count << ' ' << (count == 1 ? one : several);
 }
 
 }  // namespace
@@ -58,12 +61,24 @@ std::string MeshVerdict::sentence() const {
   if (watertight()) return "closed, manifold, without self-intersections";
   if (statistics.triangles == 0) return "no triangles";
   std::ostringstream what;
-  add_part(what, loops.size(), "boundary loop");
-  add_part(what, statistics.non_manifold_edges, "edge of three triangles or more");
-  add_part(what, non_manifold_vertices, "vertex where pieces only touch");
-  add_part(what, turned_edges, "edge between triangles turned against each other");
-  add_part(what, self_intersections, "pair of triangles that cut each other");
-  add_part(what, triangles_without_area, "triangle without area");
+  add_part(what, loops.size(), "boundary loop", "boundary loops");
+  add_part(what,
+           statistics.non_manifold_edges,
+           "edge of three triangles or more",
+           "edges of three triangles or more");
+  add_part(what,
+           non_manifold_vertices,
+           "vertex where pieces only touch",
+           "vertices where pieces only touch");
+  add_part(what,
+           turned_edges,
+           "edge between triangles turned against each other",
+           "edges between triangles turned against each other");
+  add_part(what,
+           self_intersections,
+           "pair of triangles that cut each other",
+           "pairs of triangles that cut each other");
+  add_part(what, triangles_without_area, "triangle without area", "triangles without area");
   if (what.str().empty()) what << "turned inside out";
   return what.str();
 }
