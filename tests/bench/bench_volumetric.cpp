@@ -32,10 +32,10 @@ void merge_bunny(benchmark::State& state) {
   const std::vector<double> from_mesh = distances_to_mesh(merged.mesh.vertices, zipper);
   const std::vector<double> from_zipper = distances_to_mesh(zipper.vertices, merged.mesh);
   state.counters["triangles"] = static_cast<double>(merged.mesh.triangles.size());
-  state.counters["mesh to zipper, median mm"] = millimetres(from_mesh, 0.5);
-  state.counters["p95 mm"] = millimetres(from_mesh, 0.95);
-  state.counters["zipper to mesh, median mm"] = millimetres(from_zipper, 0.5);
-  state.counters["p95 mm back"] = millimetres(from_zipper, 0.95);
+  state.counters["mesh_to_zipper_median_mm"] = millimetres(from_mesh, 0.5);
+  state.counters["mesh_to_zipper_p95_mm"] = millimetres(from_mesh, 0.95);
+  state.counters["zipper_to_mesh_median_mm"] = millimetres(from_zipper, 0.5);
+  state.counters["zipper_to_mesh_p95_mm"] = millimetres(from_zipper, 0.95);
 }
 
 /// Two stations of the hall at a voxel of 50 mm.
