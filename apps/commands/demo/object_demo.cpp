@@ -3,21 +3,18 @@
 #include <facula/acquire/core/scan_file.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
 #include <facula/apps/cli/data_folder.hpp>
+#include <facula/apps/commands/demo/demo_mesh.hpp>
 #include <facula/apps/commands/demo/object_demo.hpp>
 #include <facula/apps/commands/demo/range_error.hpp>
 #include <facula/apps/commands/demo/surface_error.hpp>
-#include <facula/reconstruct/filter/cloud_filters.hpp>
-#include <facula/reconstruct/mesh/meshing.hpp>
 
 namespace facula {
 namespace {
 
-TriangleMesh mesh_object(const PolarScan& scan, const DemoSettings& settings) {
-  const PointCloud cloud = cloud_from_scan(scan);
-  AdvancingFrontOptions options;
-  options.max_edge = 5 * settings.object_voxel();
-  return mesh_advancing_front(
-      thin_by_voxel(selected(cloud, statistical_inliers(cloud)), settings.object_voxel()), options);
+TriangleMesh mesh_object(const PolarScan& scan, const DemoSettings& settings, Figures& figures) {
+  ScanProject project;
+  project.scans.push_back({"object", {}, cloud_from_scan(scan), {}, grid_from_scan(scan)});
+  return mesh_demo_scans(project, settings, figures);
 }
 
 }  // namespace
@@ -34,12 +31,10 @@ ObjectDemo run_object_demo(const DemoSettings& settings, Session& session) {
   scan_figures.count("mixed_removed", "mixed points removed", demo.scan.mixed_removed);
   report_range_errors(errors, scan_figures);
   session.step("meshing the object", 1, 1);
-  demo.mesh = mesh_object(demo.scan.clean, settings);
+  Figures& mesh_figures = session.figures.part("object_mesh", "8 Mesh of the object:");
+  demo.mesh = mesh_object(demo.scan.clean, settings, mesh_figures);
   write_mesh(settings.folder / "object_mesh.ply", demo.mesh);
-  report_mesh_error(demo.mesh,
-                    scene,
-                    settings.num_threads,
-                    session.figures.part("object_mesh", "8 Mesh of the object:"));
+  report_mesh_error(demo.mesh, scene, settings.num_threads, mesh_figures);
   session.end_steps();
   return demo;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/apps/cli/arguments.hpp>
 #include <facula/apps/commands/demo/plane_error.hpp>
+#include <facula/reconstruct/measure/plane_relations.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,17 +26,29 @@ const PlaneFit* matching_plane(const TrueWall& wall, const std::vector<Extracted
   return best;
 }
 
-double largest_angle_error(const std::vector<const PlaneFit*>& fits,
-                           const std::vector<const TrueWall*>& walls) {
-  double largest = 0;
+/// Of the angles between all pairs of walls: the largest error, and the root mean square of error
+/// over stated uncertainty, which is 1 where the uncertainty is honest.
+struct AngleErrors {
+  double largest = 0;         ///< [rad]
+  double rms_over_sigma = 0;  ///< [1]
+};
+
+AngleErrors angle_errors(const std::vector<const PlaneFit*>& fits,
+                         const std::vector<const TrueWall*>& walls) {
+  AngleErrors errors;
+  double squares = 0;
+  std::size_t pairs = 0;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     for (std::size_t j = i + 1; j < fits.size(); ++j) {
-      const double found = angle_between(fits[i]->plane, fits[j]->plane);
+      const Measured found = measured_angle(*fits[i], *fits[j]);
       const double truth = angle_between(walls[i]->plane, walls[j]->plane);
-      largest = std::max(largest, std::abs(found - truth));
+      errors.largest = std::max(errors.largest, std::abs(found.value - truth));
+      squares += std::pow((found.value - truth) / found.sigma, 2);
+      ++pairs;
     }
   }
-  return largest;
+  if (pairs > 0) errors.rms_over_sigma = std::sqrt(squares / static_cast<double>(pairs));
+  return errors;
 }
 
 }  // namespace
@@ -69,7 +82,9 @@ void report_plane_errors(const std::vector<ExtractedPlane>& planes,
                     {{"name", "wall", 0},
                      {"points", "points", 0},
                      {"angle_error_deg", "angle error", 4},
+                     {"angle_sigma_deg", "1 sigma", 4},
                      {"offset_error_mm", "offset error", 3},
+                     {"offset_sigma_mm", "1 sigma", 3},
                      {"flatness_rms_mm", "flatness rms", 3},
                      {"flatness_p2v_mm", "flatness p2v", 2}},
                     {}};
@@ -83,17 +98,24 @@ void report_plane_errors(const std::vector<ExtractedPlane>& planes,
     table.rows.push_back({wall.name,
                           static_cast<long long>(fit->points),
                           angle_between(fit->plane, wall.plane) / kDegrees.factor,
+                          fit->normal_sigma / kDegrees.factor,
                           1000 * offset_from(wall, *fit),
+                          1000 * fit->distance_sigma,
                           1000 * fit->rms,
                           1000 * fit->peak_to_valley});
   }
+  const AngleErrors angles = angle_errors(fits, found);
   figures.count("planes", "planes found", planes.size());
   figures.count("walls_true", "walls in truth", walls.size());
   figures.count("walls_found", "walls found", fits.size());
   figures.number("wall_pair_angle_error_max_deg",
                  "angle between two walls, largest error",
-                 largest_angle_error(fits, found) / kDegrees.factor,
+                 angles.largest / kDegrees.factor,
                  4);
+  figures.number("wall_pair_angle_error_rms_over_sigma",
+                 "its rms in standard uncertainties",
+                 angles.rms_over_sigma,
+                 2);
   figures.table(std::move(table));
 }
 

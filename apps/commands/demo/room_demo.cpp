@@ -4,6 +4,7 @@
 #include <facula/acquire/rig/rig_file.hpp>
 #include <facula/apps/cli/arguments.hpp>
 #include <facula/apps/cli/data_folder.hpp>
+#include <facula/apps/commands/demo/demo_mesh.hpp>
 #include <facula/apps/commands/demo/map_error.hpp>
 #include <facula/apps/commands/demo/plane_error.hpp>
 #include <facula/apps/commands/demo/pose_error.hpp>
@@ -15,7 +16,6 @@
 #include <facula/map/navigation_grid.hpp>
 #include <facula/reconstruct/filter/cloud_filters.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
-#include <facula/reconstruct/mesh/meshing.hpp>
 
 #include <algorithm>
 #include <string>
@@ -100,7 +100,6 @@ void measure_planes(RoomDemo& demo,
   normals.num_threads = settings.num_threads;
   estimate_normals(demo.planes_cloud, normals);
   PlaneExtractionOptions options;
-  options.inlier_distance = 0.02;
   options.seed = static_cast<unsigned>(settings.seed);
   demo.planes = extract_planes(demo.planes_cloud, options);
   write_planes_csv(settings.folder / "planes.csv", demo.planes);
@@ -111,15 +110,10 @@ void measure_planes(RoomDemo& demo,
 
 void make_mesh(RoomDemo& demo, const Scene& scene, const DemoSettings& settings, Session& session) {
   session.step("meshing the room", 2, 3);
-  AdvancingFrontOptions options;
-  options.max_edge = 5 * settings.room_voxel();
-  demo.mesh =
-      mesh_advancing_front(thin_by_voxel(demo.project.fused(), settings.room_voxel()), options);
+  Figures& figures = session.figures.part("room_mesh", "5 Mesh of the room:");
+  demo.mesh = mesh_demo_scans(demo.project, settings, figures);
   write_mesh(settings.folder / "room_mesh.ply", demo.mesh);
-  report_mesh_error(demo.mesh,
-                    scene,
-                    settings.num_threads,
-                    session.figures.part("room_mesh", "5 Mesh of the room:"));
+  report_mesh_error(demo.mesh, scene, settings.num_threads, figures);
 }
 
 double median_sigma(const std::vector<RecordedScan>& scans) {
