@@ -84,7 +84,8 @@ FileKind file_kind(const fs::path& path) {
     if (extension == points) return FileKind::kCloud;
   }
   fail(
-      "expected a file that facula reads (.toml, .flog, .pcd, .ply, .asc, .xyz, .obj, .stl, .off, .glb, .bt, "
+      "expected a file that facula reads (.toml, .flog, .pcd, .ply, .asc, .xyz, .obj, .stl, .off, "
+      ".glb, .bt, "
       ".ot, "
       ".yaml, .conf or a folder), got '",
       path.string(),

@@ -9,8 +9,8 @@
 #include <facula/apps/commands/info_figures.hpp>
 #include <facula/apps/commands/log_figures.hpp>
 #include <facula/apps/commands/map_figures.hpp>
-#include <facula/reconstruct/register/scan_project.hpp>
 #include <facula/reconstruct/mesh/mesh_exchange.hpp>
+#include <facula/reconstruct/register/scan_project.hpp>
 
 #include <memory>
 

@@ -27,7 +27,7 @@ void report_deviation(const MeshDeviation& deviation, Figures& figures) {
   Figures& part = figures.part("deviation", "Distance of the points to the mesh:");
   part.count("count", "points", deviation.points);
   part.number("median_mm", "median", 1000 * deviation.median, 3);
-  part.number("p95_mm", "95 of 100 below", 1000 * deviation.p95, 3);
+  part.number("p95_mm", "p95", 1000 * deviation.p95, 3);
   part.number("max_mm", "largest", 1000 * deviation.max, 3);
 }
 

@@ -21,8 +21,9 @@ struct RepairCounts {
 
 /// An oriented manifold with boundary of the same surface as far as there is one: bad and double
 /// triangles go, of more than two triangles at an edge the largest two stay, neighbours are turned
-/// alike (a Moebius band is cut), vertices between several fans are doubled, unused ones dropped.
-/// Each piece keeps the orientation that most of its area had.
+/// alike (a Moebius band is cut), vertices between several fans are doubled and drawn a twentieth
+/// of an edge into their fans, so that these no longer touch; unused vertices are dropped. Each
+/// piece keeps the orientation that most of its area had.
 TriangleMesh repaired(const TriangleMesh& mesh, RepairCounts* counts = nullptr);
 
 /// Which pieces (triangles joined by edges) stay.

@@ -23,9 +23,10 @@ struct ScanNetwork {
 
 /// Joins the scans by the edges that are kept, gives up those that contradict the others when
 /// options.graph is robust (and says so in their verdicts), and solves for the poses of the largest
-/// group, whose first scan stays. `scan_sigma` is what scans have wrong as a whole, beside the
-/// noise that the covariances of pairs tell of: a shift of this size of what both share, and the
-/// turn that moves its rim as far [m]. Residuals go to the edges.
+/// group, whose first scan by name stays. `scan_sigma` is what scans have wrong as a whole, beside
+/// the noise that the covariances of pairs tell of: a shift of this size of what both share, and
+/// the turn that moves its rim as far [m]. Residuals go to the edges. The order of the scans makes
+/// no difference, to the last bit, where their names differ.
 ScanNetwork join_scans(const ScanProject& project,
                        std::vector<ScanEdge>& edges,
                        const RegisterScansOptions& options,
@@ -34,6 +35,9 @@ ScanNetwork join_scans(const ScanProject& project,
 /// The scan of the network against which the others are known best, by the sum of the variances of
 /// their middles; the poses are then as sure as they can be.
 std::size_t central_scan(const ReadyScans& scans, const ScanNetwork& network);
+
+/// The first scan of the network in the order of the project.
+std::size_t first_scan(const ScanNetwork& network);
 
 /// The network with another scan that stays.
 void move_anchor(const ScanProject& project, std::size_t anchor, ScanNetwork& network);

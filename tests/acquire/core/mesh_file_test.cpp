@@ -108,7 +108,7 @@ TEST(MeshFile, SaysWhatIsWrongWithABadFile) {
       {"two.stl", "solid\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendsolid", "exactly three"},
       {"word.stl", "solid\nvertex 0 0 x\nendsolid", "'x' where a vertex"},
       {"none.stl", "solid\nendsolid\n", "holds no triangles"},
-      {"a.fbx", "", "ends in .ply, .obj or .stl"}};
+      {"a.fbx", "", "ends in .ply, .obj, .stl or .off"}};
   for (const auto& [name, text, expected] : cases) {
     const auto path = folder.write(name, text);
     const std::string sentence = error_of([&] { read_mesh(path); });
