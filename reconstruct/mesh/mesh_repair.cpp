@@ -123,12 +123,34 @@ class Turner {
   std::vector<std::uint8_t> side_;  ///< 1 = to be turned
 };
 
+/// Fans that met in one point keep this share of the way to their other corners from it.
+constexpr float kPartingShare = 0.05F;
+
+/// Moves the vertices of fans that met in one point a little into their own fan: two vertices at
+/// the same place would still touch.
+void part_fans(TriangleMesh& mesh, const std::vector<std::uint8_t>& shared) {
+  std::vector<Eigen::Vector3f> sum(mesh.vertices.size(), Eigen::Vector3f::Zero());
+  std::vector<float> count(mesh.vertices.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (shared[t[i]] == 0) continue;
+      sum[t[i]] += mesh.vertices[t[(i + 1) % 3]] + mesh.vertices[t[(i + 2) % 3]];
+      count[t[i]] += 2;
+    }
+  }
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (count[v] == 0) continue;
+    mesh.vertices[v] += kPartingShare * (sum[v] / count[v] - mesh.vertices[v]);
+  }
+}
+
 /// Gives every fan of triangles a vertex of its own; returns how many vertices were added.
 std::size_t split_fans(TriangleMesh& mesh) {
   const VertexFans fans = vertex_fans(mesh, mesh_topology(mesh));
   if (fans.crowded_vertices == 0) return 0;
   std::vector<std::uint32_t> vertex_of(fans.vertex_of_fan);
   std::vector<std::uint8_t> taken(mesh.vertices.size(), 0);
+  std::vector<std::uint8_t> shared(mesh.vertices.size(), 0);
   const std::size_t before = mesh.vertices.size();
   for (std::uint32_t& vertex : vertex_of) {
     const std::uint32_t old = vertex;
@@ -140,10 +162,13 @@ std::size_t split_fans(TriangleMesh& mesh) {
     mesh.vertices.push_back(Eigen::Vector3f(mesh.vertices[old]));
     if (!mesh.normals.empty()) mesh.normals.push_back(Eigen::Vector3f(mesh.normals[old]));
     if (!mesh.colors.empty()) mesh.colors.push_back(Color(mesh.colors[old]));
+    shared[old] = 1;
+    shared.push_back(1);
   }
   for (std::uint32_t corner = 0; corner < fans.fan_of_corner.size(); ++corner) {
     mesh.triangles[corner / 3][corner % 3] = vertex_of[fans.fan_of_corner[corner]];
   }
+  part_fans(mesh, shared);
   return mesh.vertices.size() - before;
 }
 

@@ -64,7 +64,28 @@ TEST(RepairMesh, PartsPiecesThatTouchAtAVertex) {
   const TriangleMesh parted = repaired(mesh, &counts);
   EXPECT_EQ(counts.split_vertices, 1U);
   EXPECT_EQ(parted.vertices.size(), 16U);
-  EXPECT_TRUE(judge_mesh(parted).manifold);
+  const MeshVerdict verdict = judge_mesh(parted);
+  EXPECT_TRUE(verdict.manifold);
+  EXPECT_EQ(verdict.self_intersections, 0U) << "they still touch";
+  EXPECT_NEAR(*verdict.volume, 2, 0.02);
+}
+
+/// A chessboard's black squares touch at their corners only, in one plane.
+TEST(RepairMesh, PartsSheetsThatTouchAtTheirRims) {
+  TriangleMesh board =
+      grid_surface(9, 9, [](double u, double v) { return Eigen::Vector3d(8 * u, 8 * v, 0); });
+  std::erase_if(board.triangles, [&](const TriangleMesh::Triangle& t) {
+    Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+    for (const auto v : t) centre += board.vertices[v] / 3;
+    return (int(centre.x()) + int(centre.y())) % 2 == 1;
+  });
+  RepairCounts counts;
+  const TriangleMesh parted = repaired(board, &counts);
+  EXPECT_EQ(counts.split_vertices, 49U) << "the inner corners";
+  const MeshVerdict verdict = judge_mesh(parted);
+  EXPECT_TRUE(verdict.manifold);
+  EXPECT_EQ(verdict.statistics.components, 32U);
+  EXPECT_EQ(verdict.self_intersections, 0U);
 }
 
 TEST(RepairMesh, OfNothingIsNothing) {
