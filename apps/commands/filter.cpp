@@ -23,6 +23,8 @@ struct FilterArguments {
   double max_deviation = MixedPointOptions{}.max_deviation;
   std::optional<double> nearest;
   std::optional<double> farthest;
+  std::optional<double> lowest;
+  std::optional<double> highest;
   std::optional<double> max_incidence;
   int statistical = 0;
   double max_ratio = StatisticalFilterOptions{}.max_ratio;
@@ -45,6 +47,9 @@ void declare(Arguments& arguments, FilterArguments& a) {
                    "sigmas that a point beside an edge may lie off its surface, 0 = any");
   arguments.number("--nearest-mm", a.nearest, kMillimetres, "drop points nearer to the sensor");
   arguments.number("--farthest-mm", a.farthest, kMillimetres, "drop points farther away");
+  arguments.number("--lowest-mm", a.lowest, kMillimetres, "drop points below this z of the world");
+  arguments.number(
+      "--highest-mm", a.highest, kMillimetres, "drop points above this z of the world");
   arguments.number("--max-incidence-deg",
                    a.max_incidence,
                    kDegrees,
@@ -79,6 +84,10 @@ FilterChain chain_of(const FilterArguments& a, int num_threads) {
     chain.range = RangeGate{a.nearest.value_or(0), a.farthest.value_or(INFINITY)};
     chain.range->check();
   }
+  if (a.lowest || a.highest) {
+    chain.height = HeightGate{a.lowest.value_or(-INFINITY), a.highest.value_or(INFINITY)};
+    chain.height->check();
+  }
   chain.max_incidence = a.max_incidence;
   if (a.statistical > 0) {
     chain.statistical = StatisticalFilterOptions{a.statistical, a.max_ratio, num_threads};
@@ -105,12 +114,13 @@ void count(FilterVerdict& sum, const FilterVerdict& more) {
 
 Filtered filter_all(const FilterArguments& a, Session& session) {
   Filtered filtered;
-  const FilterChain chain = chain_of(a, session.num_threads);
+  FilterChain chain = chain_of(a, session.num_threads);
   for (const PosedCloud& posed : read_posed_scans(a.scans, false).project.scans) {
     GriddedCloud points{posed.cloud, posed.grid};
     std::optional<PolarScan> scan;
     const bool may_be_grid = posed.file.extension() == ".pcd" && !posed.grid.empty();
     if (may_be_grid && file_kind(posed.file) == FileKind::kScan) scan = read_scan(posed.file);
+    chain.world_from_scan = posed.world_from_scan;
     const FilterVerdict verdict = run_filters(points, scan ? &*scan : nullptr, chain);
     count(filtered.verdict, verdict);
     append(filtered.cloud, transformed(points.cloud, posed.world_from_scan));
@@ -138,7 +148,7 @@ void report_counts(const FilterVerdict& verdict, Figures& figures) {
   Figures& removed = figures.part("removed", "removed");
   removed.count(
       "mixed", "between two surfaces or off theirs beside an edge", verdict.count(Removal::kMixed));
-  removed.count("range", "outside the range gate", verdict.count(Removal::kRange));
+  removed.count("range", "outside the gate of range or height", verdict.count(Removal::kRange));
   removed.count("incidence", "seen too flat", verdict.count(Removal::kIncidence));
   removed.count("statistical", "far from their neighbours", verdict.count(Removal::kStatistical));
   removed.count("radius", "with too few others around", verdict.count(Removal::kRadius));
@@ -191,7 +201,8 @@ Command filter_command() {
           .description =
               "Removes points that are no surface: by default those between two surfaces or off "
               "theirs beside a depth edge (where the scan has its grid), and by the options given "
-              "those out of range, seen too flat, far from their neighbours or alone; then smooths "
+              "those out of range or height, seen too flat, far from their neighbours or alone; "
+              "then smooths "
               "and thins. Counts every reason. One scan keeps its grid (.pcd); several are written "
               "as one cloud in the world frame. docs/filters.md explains each filter.",
           .examples = {"facula simulate data/scenes/furnished_room.toml --rig "

@@ -28,6 +28,7 @@ FilterVerdict run_filters(GriddedCloud& points, const PolarScan* scan, const Fil
   };
   if (chain.mixed && scan != nullptr) follow(mixed_points(*scan, chain.mixed_options));
   if (chain.range) follow(outside_range(points.cloud, *chain.range));
+  if (chain.height) follow(outside_height(points.cloud, *chain.height, chain.world_from_scan));
   if (chain.max_incidence) {
     add_normals(points, chain.num_threads);
     follow(steeper_than(points.cloud, *chain.max_incidence));

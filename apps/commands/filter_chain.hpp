@@ -16,6 +16,8 @@ struct FilterChain {
   bool mixed = true;  ///< where there is a grid of a scanner's columns
   MixedPointOptions mixed_options;
   std::optional<RangeGate> range;
+  std::optional<HeightGate> height;
+  RigidTransform world_from_scan;       ///< where heights are measured
   std::optional<double> max_incidence;  ///< [rad]
   std::optional<StatisticalFilterOptions> statistical;
   std::optional<RadiusFilterOptions> radius;

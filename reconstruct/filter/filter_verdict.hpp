@@ -17,7 +17,7 @@ enum class Removal : std::uint8_t {
   kKept,
   kNotFinite,    ///< a coordinate is NaN or infinite
   kMixed,        ///< hangs between two surfaces, in the spot's shadow of a depth edge
-  kRange,        ///< outside the range gate
+  kRange,        ///< outside the gate of range or height
   kIncidence,    ///< the surface is seen too flat
   kStatistical,  ///< unusually far from its neighbours
   kRadius        ///< too few points around it

@@ -41,6 +41,29 @@ FilterVerdict outside_range(const PointCloud& cloud, const RangeGate& gate) {
   return verdict;
 }
 
+void HeightGate::check() const {
+  require(highest > lowest,
+          "the highest level is ",
+          highest,
+          " m; give more than the lowest, ",
+          lowest,
+          " m");
+}
+
+FilterVerdict outside_height(const PointCloud& cloud,
+                             const HeightGate& gate,
+                             const RigidTransform& world_from_cloud) {
+  gate.check();
+  cloud.check();
+  FilterVerdict verdict(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!cloud.points[i].allFinite()) verdict.remove(i, Removal::kNotFinite);
+    const double height = (world_from_cloud * cloud.points[i].cast<double>()).z();
+    if (height < gate.lowest || height > gate.highest) verdict.remove(i, Removal::kRange);
+  }
+  return verdict;
+}
+
 FilterVerdict steeper_than(const PointCloud& cloud, double max_incidence) {
   cloud.check();
   require(max_incidence > 0 && max_incidence <= std::numbers::pi / 2,

@@ -79,6 +79,22 @@ TEST(OutsideRange, MeasuresFromEachPointsOrigin) {
   EXPECT_NE(error_of([&] { outside_range(cloud, {-1, 1}); }), "");
 }
 
+TEST(OutsideHeight, MeasuresInTheWorld) {
+  const PointCloud cloud = points_of({{0, 0, 1}, {0, 2, 1}, {0, -2, 1}, {0, 0, NAN}});
+  EXPECT_EQ(outside_height(cloud, {0.5, 1.5}).kept(), (std::vector<std::size_t>{0, 1, 2}));
+  // The scan's y is the world's z, 1 m up.
+  RigidTransform world_from_scan;
+  world_from_scan.rotation = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX());
+  world_from_scan.translation = {0, 0, 1};
+  const FilterVerdict verdict = outside_height(cloud, {.highest = 2}, world_from_scan);
+  EXPECT_EQ(verdict.kept(), (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(verdict.count(Removal::kRange), 1U);
+  EXPECT_EQ(verdict.count(Removal::kNotFinite), 1U);
+  EXPECT_EQ(outside_height(cloud, {.lowest = 0}, world_from_scan).kept(),
+            (std::vector<std::size_t>{0, 1}));
+  EXPECT_NE(error_of([&] { outside_height(cloud, {2, 1}); }), "");
+}
+
 TEST(SteeperThan, JudgesTheAngleBetweenNormalAndRay) {
   PointCloud cloud = points_of({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}});
   EXPECT_NE(error_of([&] { steeper_than(cloud, 1); }).find("normals"), std::string::npos);
