@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/cloud_file.hpp>
 #include <facula/acquire/core/error.hpp>
-#include <facula/acquire/core/mesh_file.hpp>
 #include <facula/apps/cli/file_kind.hpp>
 #include <facula/apps/cli/output_path.hpp>
 #include <facula/apps/commands/csv_figures.hpp>
@@ -11,6 +10,8 @@
 #include <facula/apps/report/deviation_map.hpp>
 #include <facula/apps/report/png.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
+#include <facula/reconstruct/measure/principal_frame.hpp>
+#include <facula/reconstruct/mesh/mesh_exchange.hpp>
 
 #include <memory>
 
@@ -46,6 +47,18 @@ PointCloud points_of(const std::vector<std::filesystem::path>& paths) {
   return cloud;
 }
 
+/// Points of one line or one spot have no side to be on.
+bool is_surface(const PointCloud& cloud) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3f& p : cloud.points) {
+    if (p.allFinite()) points.push_back(p.cast<double>());
+  }
+  if (points.empty()) return false;
+  constexpr double kThin = 1e-12;  // squared breadth over squared length: rounding
+  const Eigen::Vector3d spread = principal_frame(points).mean_squares;
+  return spread(1) > kThin * spread(0);
+}
+
 void write_pictures(const CompareArguments& a, PointCloud cloud, const Deviations& deviations) {
   const ColorScale scale =
       deviation_scale(deviations.values, deviations.has_sign, a.color_limit.value_or(0));
@@ -71,10 +84,19 @@ void run(const CompareArguments& a, Session& session) {
   const PointCloud cloud = points_of(a.points);
   session.step("measuring", 2, 3);
   const Deviations deviations = deviations_from_file(cloud.points, a.reference, options);
+  require(deviations.too_far < cloud.size(),
+          "expected points within ",
+          1000 * options.max_distance,
+          " mm of the reference, got none of ",
+          cloud.size(),
+          "; raise --max-mm, or align the two first");
   session.step("writing", 3, 3);
   write_pictures(a, cloud, deviations);
   FigureTable table = deviation_table(deviations);
   if (!a.csv.empty()) write_table_csv(a.csv, table);
+  session.figures.text("reference",
+                       "measured from",
+                       file_kind(a.reference) == FileKind::kMesh ? "a mesh" : "points");
   report_deviations(deviations, session.figures);
   session.figures.table(std::move(table));
 }
@@ -85,12 +107,13 @@ Deviations deviations_from_file(const std::vector<Eigen::Vector3f>& points,
                                 const std::filesystem::path& reference,
                                 const DeviationOptions& options) {
   if (file_kind(reference) == FileKind::kMesh) {
-    return deviations_from_mesh(points, read_mesh(reference), options);
+    return deviations_from_mesh(points, read_any_mesh(reference), options);
   }
   PointCloud cloud = read_posed_scans({reference}).project.fused();
   // Turned to the sensor; a cloud that knows none counts as seen from its frame's origin.
   constexpr std::size_t kFewest = 3;  // points that a normal is estimated from
-  if (cloud.normals.empty() && !cloud.sensor_origin.empty() && cloud.size() >= kFewest) {
+  if (cloud.normals.empty() && !cloud.sensor_origin.empty() && cloud.size() >= kFewest &&
+      is_surface(cloud)) {
     estimate_normals(cloud, {.num_threads = options.num_threads});
   }
   return deviations_from_cloud(points, cloud, options);

@@ -8,6 +8,7 @@
 #include <facula/reconstruct/filter/normals.hpp>
 #include <facula/reconstruct/measure/profile_section.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -52,7 +53,19 @@ void declare(Arguments& arguments, ProfileArguments& a) {
   arguments.output("--csv", a.csv, "also write the pieces as a table (.csv)");
 }
 
+/// One spot has neither length nor direction.
+bool is_one_spot(const std::vector<Eigen::Vector2d>& points) {
+  return std::all_of(points.begin(), points.end(), [&](const Eigen::Vector2d& x) {
+    return (x - points.front()).norm() <= 1e-7 * x.norm();  // rounding of single precision
+  });
+}
+
 void measure_pieces(const ProfileArguments& a, const ProfileSection& section, Figures& figures) {
+  require(section.points.size() < 2 || !is_one_spot(section.points),
+          "the ",
+          section.points.size(),
+          " points of the section lie in one spot, so they have no straight piece; move the "
+          "section");
   const std::vector<ProfilePiece> pieces = straight_pieces(section.points, a.pieces);
   require(!pieces.empty(),
           "expected a straight piece of ",

@@ -6,6 +6,7 @@
 #include <facula/reconstruct/filter/cloud_filters.hpp>
 #include <facula/reconstruct/filter/grid_normals.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
+#include <facula/reconstruct/measure/principal_frame.hpp>
 #include <facula/reconstruct/register/pan_tilt_list.hpp>
 
 #include <algorithm>
@@ -21,8 +22,47 @@ struct SearchedCloud {
   ScanGrid grid;
 };
 
+/// No plane goes through points of one line, whatever the options.
+void require_spread(const PointCloud& cloud) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3f& p : cloud.points) {
+    if (p.allFinite()) points.push_back(p.cast<double>());
+  }
+  constexpr double kThin = 1e-12;  // squared breadth over squared length: rounding, no surface
+  bool surface = false;
+  if (points.size() >= 3) {
+    const Eigen::Vector3d spread = principal_frame(points).mean_squares;
+    surface = spread(1) > kThin * spread(0);
+  }
+  require(surface,
+          "expected points of a surface, got ",
+          points.size(),
+          " on one line or in one spot, which no plane fits; choose another file");
+}
+
 bool all_lists(const std::vector<std::filesystem::path>& paths) {
   return std::all_of(paths.begin(), paths.end(), is_pan_tilt_list);
+}
+
+/// The sweeps asked for. Both together carry the play of the gears, which looks like noise.
+PanTiltList chosen_sweeps(const PlaneSearch& search, Session& session) {
+  PanTiltList list = read_pan_tilt_list(search.scans.front());
+  PanTiltSweeps sweeps = sweeps_of(list);
+  if (search.sweeps == "rising") list = std::move(sweeps.rising);
+  if (search.sweeps == "falling") list = std::move(sweeps.falling);
+  require(list.size() > 0,
+          "expected ",
+          search.sweeps,
+          " sweeps in '",
+          search.scans.front().string(),
+          "', got none; leave --sweeps out");
+  if (search.sweeps == "both" &&
+      std::min(sweeps.rising.size(), sweeps.falling.size()) > list.size() / 10) {
+    session.figures.note(
+        "The list holds rising and falling sweeps; the play of the gears shows between them and "
+        "counts as noise. --sweeps rising measures one way only.");
+  }
+  return list;
 }
 
 SearchedCloud read_lists(const PlaneSearch& search, Session& session) {
@@ -30,7 +70,7 @@ SearchedCloud read_lists(const PlaneSearch& search, Session& session) {
           "expected one list of ranges, got ",
           search.scans.size(),
           "; their poses to each other are not known");
-  PosedCloud scan = posed_cloud(read_pan_tilt_list(search.scans.front()), search.tilt_zero);
+  PosedCloud scan = posed_cloud(chosen_sweeps(search, session), search.tilt_zero);
   session.figures.count("points", "points", scan.cloud.size());
   return {std::move(scan.cloud), std::move(scan.grid)};
 }
@@ -38,6 +78,10 @@ SearchedCloud read_lists(const PlaneSearch& search, Session& session) {
 SearchedCloud read_scans(const PlaneSearch& search, Session& session) {
   require(search.tilt_zero == 0,
           "--tilt-zero-deg is for lists of range, pan and tilt, got '",
+          search.scans.front().string(),
+          "'; leave it out");
+  require(search.sweeps == "both",
+          "--sweeps is for lists of range, pan and tilt, got '",
           search.scans.front().string(),
           "'; leave it out");
   PosedScans scans = read_posed_scans(search.scans);
@@ -53,6 +97,7 @@ SearchedCloud read_searched(const PlaneSearch& search, Session& session) {
   session.step("reading and filtering", 1, 3);
   SearchedCloud searched =
       all_lists(search.scans) ? read_lists(search, session) : read_scans(search, session);
+  require_spread(searched.cloud);
   if (search.voxel > 0) {
     searched.cloud = thin_by_voxel(searched.cloud, search.voxel);
     searched.grid = {};
@@ -97,6 +142,10 @@ void declare_plane_search(Arguments& arguments, PlaneSearch& search) {
                    search.tilt_zero,
                    kDegrees,
                    "added to every tilt of a .csv of range_mm, pan_deg, tilt_deg");
+  arguments.choice("--sweeps",
+                   search.sweeps,
+                   {"both", "rising", "falling"},
+                   "of such a .csv: by the way the tilt moved");
 }
 
 void declare_shared_range(Arguments& arguments, PlaneSearch& search) {

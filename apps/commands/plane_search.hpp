@@ -24,8 +24,9 @@ struct PlaneSearch {
   PlaneExtractionOptions options;
   std::string method = "auto";
   std::size_t seed = 1;
-  double voxel = 0;      ///< 0 = all points [m]
-  double tilt_zero = 0;  ///< added to the tilts of range, pan and tilt lists [rad]
+  double voxel = 0;             ///< 0 = all points [m]
+  double tilt_zero = 0;         ///< added to the tilts of range, pan and tilt lists [rad]
+  std::string sweeps = "both";  ///< of range, pan and tilt lists: or rising, or falling
   RelationOptions relations;
 };
 

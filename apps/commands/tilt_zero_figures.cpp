@@ -6,6 +6,7 @@
 #include <facula/apps/commands/tilt_zero_figures.hpp>
 #include <facula/reconstruct/measure/tilt_zero.hpp>
 
+#include <string>
 #include <utility>
 
 namespace facula {
@@ -19,6 +20,7 @@ FigureTable zero_table() {
           {{"scan", "scan", 0},
            {"sweeps", "sweeps", 0},
            {"points", "points", 0},
+           {"pairs", "pairs", 0},
            {"tilt_zero_deg", "tilt zero", 2},
            {"tilt_zero_sigma_deg", "sigma", 2},
            {"off_square_before_deg", "off square before", 2},
@@ -39,6 +41,8 @@ void report_tilt_zeros(const PlaneSearch& search, Session& session) {
   FigureTable table = zero_table();
   std::vector<double> zeros;
   std::size_t number = 0;
+  bool falling = false;
+  std::string doubtful;
   for (const auto& path : search.scans) {
     session.step("finding the tilt's zero", ++number, search.scans.size());
     require(is_pan_tilt_list(path),
@@ -50,10 +54,16 @@ void report_tilt_zeros(const PlaneSearch& search, Session& session) {
       const PanTiltList& list = rising ? sweeps.rising : sweeps.falling;
       if (list.size() < kFewPoints) continue;
       const TiltZero zero = find_tilt_zero(list, options);
+      falling = falling || !rising;
+      if (zero.on_planes <= zero.on_planes_before || zero.pairs < 2) {
+        doubtful += (doubtful.empty() ? "" : ", ") + path.stem().string() +
+                    (rising ? " rising" : " falling");
+      }
       if (rising || sweeps.rising.size() < kFewPoints) zeros.push_back(zero.tilt_zero.value);
       table.rows.push_back({path.stem().string(),
                             std::string(rising ? "rising" : "falling"),
                             static_cast<long long>(list.size()),
+                            static_cast<long long>(zero.pairs),
                             zero.tilt_zero.value / kDegrees.factor,
                             zero.tilt_zero.sigma / kDegrees.factor,
                             zero.off_square_before / kDegrees.factor,
@@ -67,8 +77,15 @@ void report_tilt_zeros(const PlaneSearch& search, Session& session) {
   if (!search.csv.empty()) write_table_csv(search.csv, table);
   session.figures.number("tilt_zero_deg", "tilt zero, median", median(zeros) / kDegrees.factor, 2);
   session.figures.table(std::move(table));
+  if (!doubtful.empty()) {
+    session.figures.note("Do not trust " + doubtful +
+                         ": fewer points lie on planes with that zero than without, or one pair of "
+                         "planes alone decides it.");
+  }
   session.figures.note(
-      "Rising and falling sweeps differ by the play of the gears; measure with --tilt-zero-deg.");
+      falling ? "Rising and falling sweeps differ by the play of the gears; measure with "
+                "--tilt-zero-deg and --sweeps."
+              : "Measure with --tilt-zero-deg.");
 }
 
 }  // namespace facula

@@ -67,6 +67,17 @@ double quantile(std::vector<double>& values, double share) {
   return values[static_cast<std::size_t>(rank)];
 }
 
+/// Whether any triangle is more than a line or a spot.
+bool has_area(const TriangleMesh& mesh) {
+  return std::any_of(
+      mesh.triangles.begin(), mesh.triangles.end(), [&](const TriangleMesh::Triangle& face) {
+        const Eigen::Vector3d a = mesh.vertices[face[0]].cast<double>();
+        const Eigen::Vector3d b = mesh.vertices[face[1]].cast<double>() - a;
+        const Eigen::Vector3d c = mesh.vertices[face[2]].cast<double>() - a;
+        return b.cross(c).norm() > 1e-12 * std::max(b.squaredNorm(), c.squaredNorm());
+      });
+}
+
 }  // namespace
 
 void DeviationOptions::check() const {
@@ -80,6 +91,10 @@ Deviations deviations_from_mesh(const std::vector<Eigen::Vector3f>& points,
   mesh.check();
   const TriangleTree tree(mesh);
   require(!tree.empty(), "the mesh has no triangle; deviations need a surface");
+  require(has_area(mesh),
+          "the ",
+          mesh.triangles.size(),
+          " triangles of the mesh have no area; deviations need a surface, so mesh it anew");
   const MeshSides sides(mesh);
   const double within = options.max_distance * options.max_distance;
   const auto measure = [&](const Eigen::Vector3f& point, Counts& counts) {

@@ -125,7 +125,7 @@ Flatness measure_flatness(const PointCloud& cloud,
   }
   const Deviations all = deviations_of(samples, flatness, options.num_threads);
   flatness.peak = all.most;
-  flatness.valley = -all.least;
+  flatness.valley = 0 - all.least;  // never minus zero
   flatness.total = all.most - all.least;
   flatness.root_mean_square = std::sqrt(all.squares / static_cast<double>(flatness.points));
   flatness.peak_point = samples.index[all.most_at];

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -186,9 +187,12 @@ TiltZero find_tilt_zero(const PanTiltList& list, const TiltZeroOptions& options)
   const Step end = step_at(list, zero, planes, options);
   require_effect(end);
   const auto before = planes_at(list, 0, options);
-  const double freedom = std::max(1.0, static_cast<double>(end.pairs) - 1);
   TiltZero result;
-  result.tilt_zero = {zero, std::sqrt(end.squares / freedom / end.effect)};
+  result.tilt_zero = {zero, std::numeric_limits<double>::quiet_NaN()};
+  if (end.pairs > 1) {
+    const double freedom = static_cast<double>(end.pairs) - 1;
+    result.tilt_zero.sigma = std::sqrt(end.squares / freedom / end.effect);
+  }
   result.pairs = end.pairs;
   result.off_square_before = step_at(list, 0, before, options).off();
   result.off_square = end.off();

@@ -21,7 +21,8 @@ struct TiltZeroOptions {
 
 /// What must be added to every tilt of a scan.
 struct TiltZero {
-  Measured tilt_zero;            ///< sigma from how well the pairs of planes agree [rad]
+  Measured tilt_zero;            ///< sigma from how well the pairs of planes agree, NaN for one
+                                 ///< pair, which always agrees with itself [rad]
   std::size_t pairs = 0;         ///< of planes that were asked to be square or parallel [1]
   double off_square_before = 0;  ///< root mean square over the pairs, with no correction [rad]
   double off_square = 0;         ///< the same with it [rad]

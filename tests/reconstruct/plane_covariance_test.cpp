@@ -70,6 +70,9 @@ Spread spread_of(const Wall& wall, const PlaneFitOptions& options) {
     spread.far += miss * miss / kTrials;
     spread.chi += fit.chi_squared / double(fit.degrees_of_freedom) / kTrials;
   }
+  // For docs/planes.md: --gtest_output=xml writes it down.
+  testing::Test::RecordProperty(options.weigh_by_sigma ? "percent_inside" : "percent_inside_equal",
+                                std::to_string(100 * spread.inside));
   return spread;
 }
 

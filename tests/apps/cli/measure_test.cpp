@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/cloud_file.hpp>
+#include <facula/acquire/core/random.hpp>
+#include <facula/tests/apps/cli/program_run.hpp>
+#include <facula/tests/support/temporary_folder.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace facula {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr float kNoise = 0.001F;  // along every ray [m]
+
+/// A plate of `side` squared points, seen from the origin, noisy along its rays where asked.
+void add_plate(PointCloud& cloud,
+               const Eigen::Vector3d& corner,
+               const Eigen::Matrix<double, 3, 2>& edges,
+               Random& random) {
+  constexpr int kSide = 60;
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < kSide; ++j) {
+      const Eigen::Vector3d x = corner + edges * Eigen::Vector2d(i, j) / (kSide - 1);
+      const Eigen::Vector3d noisy = x + kNoise * random.normal() * x.normalized();
+      cloud.points.emplace_back(noisy.cast<float>());
+      cloud.sigma.push_back(kNoise);
+      cloud.sensor_origin.emplace_back(0, 0, 0);
+    }
+  }
+}
+
+Eigen::Matrix<double, 3, 2> edges(const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+  Eigen::Matrix<double, 3, 2> both;
+  both << u, v;
+  return both;
+}
+
+/// A floor, a step 100 mm above it, a wall square to both and a ramp of 30 degrees.
+PointCloud made_room() {
+  Random random(4);
+  PointCloud cloud;
+  const double slope = std::tan(std::acos(-1.0) / 6);
+  add_plate(cloud, {1.0, -1.5, -1.0}, edges({2, 0, 0}, {0, 2.0, 0}), random);
+  add_plate(cloud, {1.0, 0.8, -0.9}, edges({1.6, 0, 0}, {0, 1.4, 0}), random);
+  add_plate(cloud, {3.3, -1.5, -0.8}, edges({0, 3, 0}, {0, 0, 2}), random);
+  add_plate(cloud, {1.2, -3.0, -0.9}, edges({1.2, 0, 0}, {0, -1, slope}), random);
+  return cloud;
+}
+
+/// Three steps of 4.69, 9.63 and 14.55 mm over a bed, as a section along x sees them.
+PointCloud made_stairs() {
+  Random random(5);
+  PointCloud cloud;
+  for (int i = 0; i < 8000; ++i) {
+    const double x = 0.08 * i / 8000;
+    const double height = x < 0.02 ? 0 : x < 0.04 ? 0.00469 : x < 0.06 ? 0.00963 : 0.01455;
+    cloud.points.emplace_back(Eigen::Vector3d(x, 0, height + 5e-5 * random.normal()).cast<float>());
+  }
+  return cloud;
+}
+
+constexpr const char* kNoPoints =
+    "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 0\nHEIGHT 1\n"
+    "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 0\nDATA ascii\n";
+
+PointCloud points_alone(std::vector<Eigen::Vector3f> points) {
+  PointCloud cloud;
+  cloud.points = std::move(points);
+  return cloud;
+}
+
+class Measure : public testing::Test {
+ protected:
+  ProgramRun run(const std::string& line) const { return run_line(line, folder_.path()); }
+
+  Json figures_of(const std::string& line) const {
+    const ProgramRun measured = run("facula measure " + line + " --json -");
+    EXPECT_EQ(measured.code, 0) << line << '\n' << measured.err;
+    EXPECT_EQ(measured.err, "") << line;
+    const Json figures = Json::parse(measured.out, nullptr, false);
+    EXPECT_FALSE(figures.is_discarded()) << measured.out;
+    return figures;
+  }
+
+  /// One sentence on standard error, nothing else, and no file left.
+  void expect_refused(const std::string& line, const std::string& words) const {
+    const ProgramRun refused = run("facula " + line);
+    EXPECT_EQ(refused.code, 1) << line << '\n' << refused.out;
+    EXPECT_EQ(refused.err.rfind("facula ", 0), 0U) << line << '\n' << refused.err;
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    EXPECT_NE(refused.err.find(words), std::string::npos) << line << '\n' << refused.err;
+    EXPECT_EQ(refused.out, "") << line;
+    EXPECT_FALSE(has_file_like(folder_.path(), "result")) << line;
+  }
+
+  void write(const std::string& name, const PointCloud& cloud) const {
+    write_cloud(folder_ / name, cloud);
+  }
+
+  void write_text(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+
+  void write_mesh_text(const std::string& name,
+                       const std::string& vertices,
+                       const std::string& face) const {
+    write_text(name,
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nelement face " +
+                   std::string(face.empty() ? "0" : "1") +
+                   "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + face);
+  }
+
+  TemporaryFolder folder_;
+};
+
+const Json& row_of(const Json& rows, int plane, int other) {
+  static const Json none;
+  for (const Json& row : rows) {
+    if (row.at("plane") == plane && row.at("other") == other) return row;
+  }
+  ADD_FAILURE() << "no row of planes " << plane << " and " << other;
+  return none;
+}
+
+/// The number of the plane whose points are the `n`-th made plate: by normal and distance.
+int plane_like(const Json& planes, const Eigen::Vector3d& normal, double distance_mm) {
+  for (const Json& row : planes) {
+    const Eigen::Vector3d found(row.at("normal_x"), row.at("normal_y"), row.at("normal_z"));
+    const double along = found.dot(normal);
+    if (std::abs(along) < 0.999) continue;
+    if (std::abs(std::copysign(row.at("distance_mm").get<double>(), along) - distance_mm) < 30) {
+      return row.at("plane");
+    }
+    if (std::abs(row.at("distance_mm").get<double>() * along - distance_mm) < 30) {
+      return row.at("plane");
+    }
+  }
+  ADD_FAILURE() << "no plane like " << normal.transpose() << " at " << distance_mm << " mm";
+  return 0;
+}
+
+TEST_F(Measure, KnownAnglesAndDistancesLieWithinTwiceTheStatedSigma) {
+  write("room.pcd", made_room());
+  const Json planes = figures_of("planes room.pcd").at("planes");
+  ASSERT_EQ(planes.size(), 4U);
+  const double half = std::sqrt(0.75);
+  const int floor = plane_like(planes, {0, 0, 1}, -1000);
+  const int step = plane_like(planes, {0, 0, 1}, -900);
+  const int wall = plane_like(planes, {1, 0, 0}, 3300);
+  // Through (0, -3, -0.9), rising towards -y.
+  const int ramp = plane_like(planes, {0, 0.5, half}, 1000 * (-3 * 0.5 - 0.9 * half));
+  const Json angles = figures_of("angles room.pcd").at("angles");
+  const auto expect_angle = [&](int a, int b, double truth) {
+    const Json& row = row_of(angles, std::min(a, b), std::max(a, b));
+    const double sigma = row.at("angle_sigma_deg");
+    EXPECT_NEAR(row.at("angle_deg").get<double>(), truth, 2 * sigma);
+    EXPECT_LT(sigma, 0.02);
+  };
+  expect_angle(floor, wall, 90);
+  expect_angle(step, wall, 90);
+  expect_angle(floor, ramp, 30);
+  expect_angle(ramp, step, 30);
+  const Json distances = figures_of("distance room.pcd").at("distances");
+  ASSERT_EQ(distances.size(), 1U);
+  const Json& apart = row_of(distances, std::min(floor, step), std::max(floor, step));
+  const double sigma = apart.at("distance_sigma_mm");
+  EXPECT_NEAR(apart.at("distance_mm").get<double>(), 100, 2 * sigma);
+  EXPECT_LT(sigma, 0.2);
+}
+
+TEST_F(Measure, APlaneIsTheSamePlaneInEveryCommand) {
+  write("room.pcd", made_room());
+  const Json planes = figures_of("planes room.pcd --csv planes.csv");
+  const Json angles = figures_of("angles room.pcd");
+  const Json flatness = figures_of("flatness room.pcd --trials 20");
+  const Json distances = figures_of("distance room.pcd --parallel-deg 40");
+  ASSERT_EQ(flatness.at("flatness").size(), planes.at("planes").size());
+  for (std::size_t i = 0; i < planes.at("planes").size(); ++i) {
+    const Json& plane = planes.at("planes")[i];
+    EXPECT_EQ(plane.at("plane"), flatness.at("flatness")[i].at("plane"));
+    EXPECT_EQ(plane.at("points"), flatness.at("flatness")[i].at("points"));
+    EXPECT_EQ(plane.at("plane"), angles.at("plumb")[i].at("plane"));
+  }
+  for (const Json& row : planes.at("angles")) {
+    const Json& same = row_of(angles.at("angles"), row.at("plane"), row.at("other"));
+    EXPECT_EQ(row.at("angle_deg"), same.at("angle_deg"));
+    EXPECT_EQ(row.at("angle_sigma_deg"), same.at("angle_sigma_deg"));
+  }
+  for (const Json& row : planes.at("distances")) {
+    const Json& same = row_of(distances.at("distances"), row.at("plane"), row.at("other"));
+    EXPECT_EQ(row.at("distance_mm"), same.at("distance_mm"));
+  }
+}
+
+TEST_F(Measure, AZoneThatIsNeitherSquareNorParallelIsNullNotNan) {
+  write("room.pcd", made_room());
+  const ProgramRun measured =
+      run("facula measure angles room.pcd --csv angles.csv --json - && cat angles.csv");
+  ASSERT_EQ(measured.code, 0) << measured.err;
+  EXPECT_EQ(measured.out.find("nan"), std::string::npos);
+  EXPECT_EQ(measured.out.find("inf,"), std::string::npos);
+  const Json figures = figures_of("angles room.pcd");
+  std::size_t without = 0;
+  for (const Json& row : figures.at("angles")) {
+    const bool none = row.at("tolerance") == "-";
+    EXPECT_EQ(row.at("zone_mm").is_null(), none);
+    EXPECT_EQ(row.at("zone_points_mm").is_null(), none);
+    without += none ? 1 : 0;
+  }
+  EXPECT_EQ(without, 2U);  // ramp and floor, ramp and step
+}
+
+TEST_F(Measure, FlatnessOfAFlatPlateIsThatOfItsNoise) {
+  Random random(8);
+  PointCloud plate;
+  add_plate(plate, {2, -0.5, -0.5}, edges({0, 1, 0}, {0, 0, 1}), random);
+  write("plate.pcd", plate);
+  const Json row = figures_of("flatness plate.pcd --whole").at("flatness").at(0);
+  const double total = row.at("flt_t_mm");
+  EXPECT_NEAR(
+      total, row.at("noise_flt_t_mm").get<double>(), 2 * row.at("flt_t_sigma_mm").get<double>());
+  EXPECT_LT(total, row.at("noise_flt_t_p95_mm").get<double>());
+  EXPECT_NEAR(row.at("flt_q_mm").get<double>(), 1, 0.1);
+  EXPECT_LE(row.at("minimum_zone_mm").get<double>(), total);
+}
+
+TEST_F(Measure, FlatnessOfASaddleIsTheClosedForm) {
+  // z = a x y on a square about 0: the least-squares plane is z = 0.
+  std::vector<Eigen::Vector3f> points;
+  for (int i = -20; i <= 20; ++i) {
+    for (int j = -20; j <= 20; ++j) {
+      const auto x = static_cast<float>(i) / 20;
+      const auto y = static_cast<float>(j) / 20;
+      points.emplace_back(x, y, 0.002F * x * y);
+    }
+  }
+  write("saddle.pcd", points_alone(points));
+  const Json row = figures_of("flatness saddle.pcd --whole").at("flatness").at(0);
+  EXPECT_NEAR(row.at("flt_t_mm").get<double>(), 4, 1e-4);
+  EXPECT_NEAR(row.at("flt_p_mm").get<double>(), 2, 1e-4);
+  EXPECT_NEAR(row.at("flt_v_mm").get<double>(), 2, 1e-4);
+  EXPECT_NEAR(row.at("flt_q_mm").get<double>(), 2 * 0.35, 1e-4);  // mean of x^2: 0.35 for 41 places
+  EXPECT_TRUE(row.at("flt_t_sigma_mm").is_null());
+}
+
+TEST_F(Measure, StairsHaveTheirStepsWithinTwiceTheStatedSigma) {
+  write("stairs.pcd", made_stairs());
+  const Json pieces = figures_of("profile stairs.pcd --normal 0 1 0 --csv pieces.csv").at("pieces");
+  std::vector<std::pair<double, double>> steps;
+  for (const Json& piece : pieces) {
+    if (piece.at("points").get<int>() < 1000 || piece.at("step_mm").is_null()) continue;
+    steps.emplace_back(piece.at("step_mm"), piece.at("step_sigma_mm"));
+  }
+  std::sort(steps.begin(), steps.end());
+  ASSERT_GE(steps.size(), 3U) << pieces.dump(1);
+  const std::vector<double> truths{4.69, 9.63, 14.55};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& [step, sigma] = steps[steps.size() - 3 + i];
+    EXPECT_NEAR(step, truths[i], 2 * sigma);
+    EXPECT_LT(sigma, 0.05);
+  }
+}
+
+TEST_F(Measure, PointsThatHoldNoPlaneAreRefusedInOneSentence) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::vector<Eigen::Vector3f> line;
+  std::vector<Eigen::Vector3f> blob;
+  Random random(2);
+  for (int i = 0; i < 2000; ++i) {
+    line.emplace_back(1 + 0.001F * static_cast<float>(i), 2, 3);
+    blob.emplace_back(
+        Eigen::Vector3d(random.normal(), random.normal(), random.normal()).cast<float>());
+  }
+  write_text("empty.pcd", kNoPoints);
+  write("one.pcd", points_alone({{1, 2, 3}}));
+  write("line.pcd", points_alone(line));
+  write("spot.pcd", points_alone(std::vector<Eigen::Vector3f>(2000, {1, 2, 3})));
+  write("nan.pcd", points_alone(std::vector<Eigen::Vector3f>(2000, {nan, nan, nan})));
+  write("blob.pcd", points_alone(blob));
+  // All four search for planes alike, so planes stands for the others.
+  const auto refused = [this](const std::string& input, const std::string& words) {
+    expect_refused("measure " + input + " --csv result.csv", words);
+  };
+  refused("planes empty.pcd", "no valid points");
+  refused("planes nan.pcd", "no valid points");
+  refused("planes one.pcd", "no plane fits");
+  refused("planes blob.pcd", "expected a plane of 500 points");
+  refused("angles line.pcd", "no plane fits");
+  refused("distance spot.pcd --inlier-mm 5", "no plane fits");
+  refused("flatness line.pcd --inlier-mm 5", "no plane fits");
+  refused("flatness one.pcd --whole", "at least 3 points");
+  refused("flatness line.pcd --whole", "one line");
+  const std::string thick = " --thickness-mm 9000";
+  refused("profile empty.pcd", "no valid points");
+  refused("profile one.pcd" + thick, "straight piece");
+  refused("profile spot.pcd" + thick, "one spot");
+  expect_refused("measure profile line.pcd --shape circle" + thick, "one line");
+  expect_refused("measure profile one.pcd --shape ball", "at least 4 points");
+  expect_refused("measure profile line.pcd --shape ball", "expected a sphere");
+  expect_refused("measure profile spot.pcd --shape rod", "expected a cylinder");
+}
+
+TEST_F(Measure, SomePointsThatAreNotNumbersAreLeftOut) {
+  PointCloud room = made_room();
+  const std::size_t points = room.size();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 0; i < points; i += 10) room.points[i].setConstant(nan);
+  write("room.pcd", room);
+  const Json figures = figures_of("planes room.pcd");
+  EXPECT_EQ(figures.at("points").get<std::size_t>(), points - points / 10);
+  EXPECT_EQ(figures.at("planes").size(), 4U);
+}
+
+TEST_F(Measure, CompareRefusesReferencesWithoutASurface) {
+  write("points.pcd", points_alone({{0.2F, 0.2F, 1.003F}, {0.3F, 0.1F, 0.999F}}));
+  write_text("empty.pcd", kNoPoints);
+  write_mesh_text("good.ply", "0 0 1\n1 0 1\n0 1 1\n", "3 0 1 2\n");
+  write_mesh_text("thin.ply", "0 0 1\n1 0 1\n2 0 1\n", "3 0 1 2\n");
+  write_mesh_text("torn.ply", "0 0 1\n1 0 1\n0 1 1\n", "3 0 1 7\n");
+  write_mesh_text("nan.ply", "nan 0 1\n1 0 1\n0 1 1\n", "3 0 1 2\n");
+  const std::string to = "measure compare points.pcd --out result.ply --to ";
+  expect_refused(to + "thin.ply", "no area");
+  expect_refused(to + "torn.ply", "vertex 7");
+  expect_refused(to + "nan.ply", "not a finite point");
+  expect_refused(to + "empty.pcd", "no valid points");
+  expect_refused("measure compare empty.pcd --to good.ply", "no valid points");
+  expect_refused("measure compare points.pcd --to good.ply --max-mm 0.001 --picture result.png",
+                 "got none of 2");
+  const Json figures = figures_of("compare points.pcd --to good.ply");
+  EXPECT_EQ(figures.at("reference"), "a mesh");
+  EXPECT_NEAR(figures.at("most_mm").get<double>(), 3, 1e-3);
+  EXPECT_NEAR(figures.at("least_mm").get<double>(), -1, 1e-3);
+}
+
+TEST_F(Measure, CompareToPointsWithoutASurfaceGivesDistancesAndSaysSo) {
+  write("points.pcd", points_alone({{1, 2, 3.5F}}));
+  write("spot.pcd", points_alone(std::vector<Eigen::Vector3f>(50, {1, 2, 3})));
+  write("one.pcd", points_alone({{1, 2, 3}}));
+  write_mesh_text("faceless.ply", "1 2 3\n1 2 3\n1 2 3\n", "");
+  for (const std::string reference : {"spot.pcd", "one.pcd", "faceless.ply"}) {
+    const Json figures = figures_of("compare points.pcd --to " + reference);
+    EXPECT_EQ(figures.at("reference"), "points") << reference;
+    EXPECT_EQ(figures.at("has_sign"), false) << reference;
+    EXPECT_NEAR(figures.at("max_mm").get<double>(), 500, 1e-3) << reference;
+    EXPECT_NE(figures.at("note_1").get<std::string>().find("nearest point"), std::string::npos);
+  }
+}
+
+TEST_F(Measure, TheHistogramHoldsEveryPointThatWasCompared) {
+  write("room.pcd", made_room());
+  PointCloud stray = made_room();
+  stray.points.front() = {-50, 0, 0};  // towards the sensor
+  write("stray.pcd", stray);
+  const Json figures = figures_of("compare stray.pcd --to room.pcd --csv histogram.csv");
+  std::size_t listed = 0;
+  for (const Json& row : figures.at("histogram")) listed += row.at("points").get<std::size_t>();
+  EXPECT_EQ(listed, figures.at("count").get<std::size_t>());
+  EXPECT_TRUE(figures.at("histogram").back().at("to_mm").is_null());
+}
+
+TEST_F(Measure, SweepsOfAListAreMeasuredApart) {
+  // A wall ahead, seen on two sweeps whose tilts differ by the play of the gears.
+  std::string rows = "range_mm,pan_deg,tilt_deg\n";
+  for (int pan = 0; pan < 40; ++pan) {
+    for (int step = 0; step < 40; ++step) {
+      const bool rising = pan % 2 == 0;
+      const int tilt = 60 + (rising ? step : 39 - step);
+      const double radians = std::acos(-1.0) / 180;
+      const double truth = (tilt + (rising ? 0.0 : 4.0)) * radians;
+      const double range = 2000 / (std::sin(truth) * std::cos((pan - 20) * radians));
+      rows += std::to_string(range) + "," + std::to_string(pan - 20) + "," + std::to_string(tilt) +
+              "\n";
+    }
+  }
+  write_text("list.csv", rows);
+  const Json both = figures_of("planes list.csv --min-points 200 --inlier-mm 150");
+  EXPECT_NE(both.at("note_1").get<std::string>().find("--sweeps"), std::string::npos);
+  const Json rising = figures_of("planes list.csv --min-points 200 --sweeps rising");
+  EXPECT_EQ(rising.at("points"), 800);
+  EXPECT_LT(rising.at("planes").at(0).at("rms_mm").get<double>(), 0.1);
+  EXPECT_FALSE(rising.contains("note_1"));
+  write("room.pcd", made_room());
+  expect_refused("measure planes room.pcd --sweeps rising", "leave it out");
+}
+
+}  // namespace
+}  // namespace facula
