@@ -100,11 +100,12 @@ MeshMethod chosen_method(const MeshArguments& a, const ScanProject& project, Fig
 }
 
 /// The volume weighs outliers down by itself; methods that join points would run through them.
-ScanProject without_outliers(const ScanProject& project, Figures& figures) {
+ScanProject without_outliers(const ScanProject& project, int num_threads, Figures& figures) {
   const PointCloud cloud = project.fused();
   ScanProject result;
   result.scans.emplace_back();
-  result.scans.front().cloud = selected(cloud, statistical_inliers(cloud));
+  result.scans.front().cloud =
+      selected(cloud, statistical_inliers(cloud, {.num_threads = num_threads}));
   figures.count(
       "outliers_removed", "outliers removed", cloud.size() - result.scans.front().cloud.size());
   return result;
@@ -116,7 +117,9 @@ Made make_mesh(const MeshArguments& a, Session& session) {
   const MeshMethod method = chosen_method(a, project, session.figures);
   session.figures.text("method", "method", to_string(method));
   const bool joins_points = method != MeshMethod::kVolumetric;
-  if (joins_points && !a.no_filter) project = without_outliers(project, session.figures);
+  if (joins_points && !a.no_filter) {
+    project = without_outliers(project, session.num_threads, session.figures);
+  }
   session.step("meshing by " + to_string(method), 2, 4);
   MeshedScans meshed =
       mesh_scans(project,
@@ -147,15 +150,17 @@ void run(const MeshArguments& a, Session& session) {
           "expected a surface through the points, got no triangle; try a larger "
           "--max-edge-mm");
   session.step("cleaning and judging", 3, 4);
+  MeshStepArguments steps = a.steps;
+  steps.num_threads = session.num_threads;
   const MeshVerdict verdict =
-      run_mesh_steps(made.mesh, made.cloud, made.voxel, a.steps, session.figures);
+      run_mesh_steps(made.mesh, made.cloud, made.voxel, steps, session.figures);
   for (const auto& path : a.out) write_mesh(path, made.mesh);
   report_verdict(verdict, session.figures);
   if (a.compare.empty()) return;
   session.step("comparing", 4, 4);
-  report_distances(distances_to_mesh(made.mesh.vertices, reference),
+  report_distances(distances_to_mesh(made.mesh.vertices, reference, session.num_threads),
                    session.figures.part("compare", "Distance of vertices to the reference:"));
-  report_distances(distances_to_mesh(reference.vertices, made.mesh),
+  report_distances(distances_to_mesh(reference.vertices, made.mesh, session.num_threads),
                    session.figures.part("compare_back", "Distance of the reference's vertices:"));
 }
 

@@ -44,7 +44,8 @@ void fill(TriangleMesh& mesh, const MeshStepArguments& a, Figures& figures) {
 void simplify(TriangleMesh& mesh, const MeshStepArguments& a, Figures& figures) {
   if (a.triangles == 0 && a.max_error == 0) return;
   figures.count("triangles_before", "triangles before simplifying", mesh.triangles.size());
-  mesh = simplified(mesh, {.triangles = a.triangles, .max_error = a.max_error});
+  mesh = simplified(
+      mesh, {.triangles = a.triangles, .max_error = a.max_error, .num_threads = a.num_threads});
 }
 
 }  // namespace
@@ -91,18 +92,18 @@ MeshVerdict run_mesh_steps(TriangleMesh& mesh,
   remove_islands(mesh, voxel, a, figures);
   require(!mesh.empty(), "no piece of the mesh is left; give a smaller --min-island-mm");
   fill(mesh, a, figures);
-  mesh = smoothed(mesh, a.smooth);
+  mesh = smoothed(mesh, a.smooth, a.num_threads);
   if (a.remesh > 0) mesh = remeshed(mesh, a.remesh);
   simplify(mesh, a, figures);
   std::optional<MeshVerdict> verdict;
   if (a.watertight) {
-    WatertightResult closed = make_watertight(mesh, cloud.points);
+    WatertightResult closed = make_watertight(mesh, cloud.points, {.num_threads = a.num_threads});
     figures.text("watertight_by", "made watertight", closed.how);
     mesh = std::move(closed.mesh);
     verdict = std::move(closed.verdict);
   }
-  if (a.color) color_mesh(mesh, cloud);
-  return verdict ? *verdict : judge_mesh(mesh, cloud.points);
+  if (a.color) color_mesh(mesh, cloud, a.num_threads);
+  return verdict ? *verdict : judge_mesh(mesh, cloud.points, a.num_threads);
 }
 
 }  // namespace facula

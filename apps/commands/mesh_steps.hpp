@@ -23,6 +23,7 @@ struct MeshStepArguments {
   double max_error = 0;              ///< [m]
   bool watertight = false;
   bool color = false;
+  int num_threads = 0;  ///< of all steps, 0 = all cores [1]
 };
 
 void declare_mesh_steps(Arguments& arguments, MeshStepArguments& a);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/scan_file.hpp>
+#include <facula/acquire/core/whole_file.hpp>
 #include <facula/apps/cli/file_kind.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
 #include <facula/reconstruct/filter/scan_filters.hpp>
+#include <facula/reconstruct/mesh/mesh_exchange.hpp>
 
 #include <system_error>
 #include <utility>
@@ -25,6 +27,16 @@ bool is_grid(const std::filesystem::path& file) {
   return std::filesystem::exists(file, unknown) && file_kind(file) == FileKind::kScan;
 }
 
+/// A mesh stands for its vertices; .ply files are read as clouds, which keeps what they know.
+ScanProject scans_of(const std::filesystem::path& path, FileKind kind) {
+  if (kind != FileKind::kMesh || lower_extension(path) == ".ply") return read_scan_project(path);
+  ScanProject project;
+  project.scans.emplace_back();
+  project.scans.front().name = path.filename().string();
+  project.scans.front().cloud.points = read_any_mesh(path).vertices;
+  return project;
+}
+
 }  // namespace
 
 PosedScans read_posed_scans(const std::vector<std::filesystem::path>& paths, bool filter) {
@@ -39,7 +51,8 @@ PosedScans read_posed_scans(const std::vector<std::filesystem::path>& paths, boo
             " in '",
             path.string(),
             "'; 'facula extract' makes scans of captures");
-    for (PosedCloud& posed : read_scan_project(path).scans) {
+    ScanProject project = scans_of(path, kind);
+    for (PosedCloud& posed : project.scans) {
       scans.points_read += posed.cloud.size();
       if (is_grid(posed.file)) {
         const PolarScan scan = read_scan(posed.file);
