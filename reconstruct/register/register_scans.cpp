@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/reconstruct/register/joint_refinement.hpp>
 #include <facula/reconstruct/register/register_scans.hpp>
 #include <facula/reconstruct/register/scan_checks.hpp>
 #include <facula/reconstruct/register/scan_edges.hpp>
@@ -129,7 +130,9 @@ RegisterScansResult register_scans(ScanProject& project, const RegisterScansOpti
   result.scan_sigma = fitting_scan_sigma(
       project, result.edges, plain, {kTightVoxels * voxel, kLooseVoxels * voxel});
   network = join_scans(project, result.edges, plain, result.scan_sigma);
-  if (!result.from_given) move_anchor(project, central_scan(scans, network), network);
+  move_anchor(
+      project, result.from_given ? first_scan(network) : central_scan(scans, network), network);
+  refine_jointly(scans, result.edges, options, network);
   result.chi2 = network.chi2;
   result.degrees_of_freedom = network.degrees_of_freedom;
   describe_placements(scans, network, result);

@@ -55,19 +55,15 @@ std::size_t largest_group(const std::vector<std::size_t>& group) {
 }
 
 /// Poses along the tree of those edges that overlap most, from each group's lowest scan.
-std::vector<RigidTransform> tree_poses(const ScanProject& project,
+std::vector<RigidTransform> tree_poses(std::vector<RigidTransform> poses,
                                        const std::vector<ScanEdge>& edges) {
   std::vector<std::size_t> best(edges.size());
   std::iota(best.begin(), best.end(), std::size_t{0});
   std::stable_sort(best.begin(), best.end(), [&](std::size_t a, std::size_t b) {
     return edges[a].overlap > edges[b].overlap;
   });
-  std::vector<RigidTransform> poses;
-  std::vector<std::size_t> tree;
-  for (const PosedCloud& scan : project.scans) {
-    tree.push_back(poses.size());
-    poses.push_back(scan.world_from_scan);
-  }
+  std::vector<std::size_t> tree(poses.size());
+  std::iota(tree.begin(), tree.end(), std::size_t{0});
   for (const std::size_t e : best) {
     const PoseEdge& edge = edges[e].edge;
     if (edges[e].verdict != EdgeVerdict::kKept || tree[edge.from] == tree[edge.to]) continue;
@@ -169,15 +165,14 @@ double median_excess(const std::vector<ScanEdge>& edges) {
   return excess.size() < 3 ? 0.0 : median(excess);
 }
 
-}  // namespace
-
-ScanNetwork join_scans(const ScanProject& project,
-                       std::vector<ScanEdge>& edges,
-                       const RegisterScansOptions& options,
-                       double scan_sigma) {
-  const std::size_t count = project.scans.size();
+/// join_scans() in the order of the poses.
+ScanNetwork join_in_order(const std::vector<RigidTransform>& given,
+                          std::vector<ScanEdge>& edges,
+                          const RegisterScansOptions& options,
+                          double scan_sigma) {
+  const std::size_t count = given.size();
   std::vector<std::size_t> which;
-  const std::vector<RigidTransform> start = tree_poses(project, edges);
+  const std::vector<RigidTransform> start = tree_poses(given, edges);
   std::vector<PoseEdge> measured = graph_edges(edges, scan_sigma, which);
   add_motion(options.motion, groups_of(count, edges), start, measured);
   PoseGraphOptions how = options.graph;
@@ -190,8 +185,7 @@ ScanNetwork join_scans(const ScanProject& project,
   const std::size_t largest = largest_group(group);
   ScanNetwork network;
   network.anchor = largest;
-  const RigidTransform back =
-      project.scans[largest].world_from_scan * robust.world_from_scan[largest].inverse();
+  const RigidTransform back = given[largest] * robust.world_from_scan[largest].inverse();
   std::vector<RigidTransform> poses = robust.world_from_scan;
   for (RigidTransform& pose : poses) pose = back * pose;
   measured = graph_edges(edges, scan_sigma, which);
@@ -209,6 +203,59 @@ ScanNetwork join_scans(const ScanProject& project,
                                                           : std::nullopt);
   }
   return network;
+}
+
+/// The scans by their names, of equal names by their order.
+std::vector<std::size_t> by_name(const ScanProject& project) {
+  std::vector<std::size_t> order(project.scans.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return project.scans[a].name < project.scans[b].name;
+  });
+  return order;
+}
+
+void renumber(const std::vector<std::size_t>& number, std::vector<ScanEdge>& edges) {
+  for (ScanEdge& edge : edges) {
+    edge.edge.from = number[edge.edge.from];
+    edge.edge.to = number[edge.edge.to];
+  }
+}
+
+/// The network with scan k under the number number[k].
+ScanNetwork renumbered(const ScanNetwork& network, const std::vector<std::size_t>& number) {
+  ScanNetwork result = network;
+  result.anchor = number[network.anchor];
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    result.world_from_scan[number[i]] = network.world_from_scan[i];
+    result.covariance[number[i]] = network.covariance[i];
+    for (std::size_t k = 0; k < number.size(); ++k) {
+      result.joint_covariance.block<6, 6>(static_cast<Eigen::Index>(6 * number[i]),
+                                          static_cast<Eigen::Index>(6 * number[k])) =
+          block(network, i, k);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+ScanNetwork join_scans(const ScanProject& project,
+                       std::vector<ScanEdge>& edges,
+                       const RegisterScansOptions& options,
+                       double scan_sigma) {
+  // Sums and pivots in the order of the names: the poses do not depend on the order given.
+  const std::vector<std::size_t> order = by_name(project);
+  std::vector<std::size_t> rank(order.size());
+  std::vector<RigidTransform> given;
+  for (const std::size_t i : order) {
+    rank[i] = given.size();
+    given.push_back(project.scans[i].world_from_scan);
+  }
+  renumber(rank, edges);
+  const ScanNetwork network = join_in_order(given, edges, options, scan_sigma);
+  renumber(order, edges);
+  return renumbered(network, order);
 }
 
 std::size_t central_scan(const ReadyScans& scans, const ScanNetwork& network) {
@@ -230,6 +277,13 @@ std::size_t central_scan(const ReadyScans& scans, const ScanNetwork& network) {
     }
   }
   return best;
+}
+
+std::size_t first_scan(const ScanNetwork& network) {
+  const auto& poses = network.world_from_scan;
+  const auto placed =
+      std::find_if(poses.begin(), poses.end(), [](const auto& pose) { return pose.has_value(); });
+  return static_cast<std::size_t>(placed - poses.begin());
 }
 
 void move_anchor(const ScanProject& project, std::size_t anchor, ScanNetwork& network) {
