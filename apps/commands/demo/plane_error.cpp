@@ -26,22 +26,35 @@ const PlaneFit* matching_plane(const TrueWall& wall, const std::vector<Extracted
   return best;
 }
 
+struct FoundWall {
+  const TrueWall* truth = nullptr;
+  const PlaneFit* fit = nullptr;
+};
+
+std::vector<FoundWall> found_walls(const std::vector<ExtractedPlane>& planes,
+                                   const std::vector<TrueWall>& walls) {
+  std::vector<FoundWall> found;
+  for (const TrueWall& wall : walls) {
+    if (const PlaneFit* fit = matching_plane(wall, planes)) found.push_back({&wall, fit});
+  }
+  return found;
+}
+
 /// Of the angles between all pairs of walls: the largest error, and the root mean square of error
-/// over stated uncertainty, which is 1 where the uncertainty is honest.
+/// over stated uncertainty, which is near 1 where the uncertainty is honest.
 struct AngleErrors {
   double largest = 0;         ///< [rad]
   double rms_over_sigma = 0;  ///< [1]
 };
 
-AngleErrors angle_errors(const std::vector<const PlaneFit*>& fits,
-                         const std::vector<const TrueWall*>& walls) {
+AngleErrors angle_errors(const std::vector<FoundWall>& walls) {
   AngleErrors errors;
   double squares = 0;
   std::size_t pairs = 0;
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    for (std::size_t j = i + 1; j < fits.size(); ++j) {
-      const Measured found = measured_angle(*fits[i], *fits[j]);
-      const double truth = angle_between(walls[i]->plane, walls[j]->plane);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    for (std::size_t j = i + 1; j < walls.size(); ++j) {
+      const Measured found = measured_angle(*walls[i].fit, *walls[j].fit);
+      const double truth = angle_between(walls[i].truth->plane, walls[j].truth->plane);
       errors.largest = std::max(errors.largest, std::abs(found.value - truth));
       squares += std::pow((found.value - truth) / found.sigma, 2);
       ++pairs;
@@ -82,41 +95,40 @@ void report_plane_errors(const std::vector<ExtractedPlane>& planes,
                     {{"name", "wall", 0},
                      {"points", "points", 0},
                      {"angle_error_deg", "angle error", 4},
-                     {"angle_sigma_deg", "1 sigma", 4},
                      {"offset_error_mm", "offset error", 3},
-                     {"offset_sigma_mm", "1 sigma", 3},
                      {"flatness_rms_mm", "flatness rms", 3},
                      {"flatness_p2v_mm", "flatness p2v", 2}},
                     {}};
-  std::vector<const PlaneFit*> fits;
-  std::vector<const TrueWall*> found;
-  for (const TrueWall& wall : walls) {
-    const PlaneFit* fit = matching_plane(wall, planes);
-    if (fit == nullptr) continue;
-    fits.push_back(fit);
-    found.push_back(&wall);
-    table.rows.push_back({wall.name,
-                          static_cast<long long>(fit->points),
-                          angle_between(fit->plane, wall.plane) / kDegrees.factor,
-                          fit->normal_sigma / kDegrees.factor,
-                          1000 * offset_from(wall, *fit),
-                          1000 * fit->distance_sigma,
-                          1000 * fit->rms,
-                          1000 * fit->peak_to_valley});
+  const std::vector<FoundWall> found = found_walls(planes, walls);
+  for (const FoundWall& wall : found) {
+    table.rows.push_back({wall.truth->name,
+                          static_cast<long long>(wall.fit->points),
+                          angle_between(wall.fit->plane, wall.truth->plane) / kDegrees.factor,
+                          1000 * offset_from(*wall.truth, *wall.fit),
+                          1000 * wall.fit->rms,
+                          1000 * wall.fit->peak_to_valley});
   }
-  const AngleErrors angles = angle_errors(fits, found);
   figures.count("planes", "planes found", planes.size());
   figures.count("walls_true", "walls in truth", walls.size());
-  figures.count("walls_found", "walls found", fits.size());
+  figures.count("walls_found", "walls found", found.size());
   figures.number("wall_pair_angle_error_max_deg",
                  "angle between two walls, largest error",
-                 angles.largest / kDegrees.factor,
+                 angle_errors(found).largest / kDegrees.factor,
                  4);
-  figures.number("wall_pair_angle_error_rms_over_sigma",
-                 "its rms in standard uncertainties",
-                 angles.rms_over_sigma,
-                 2);
   figures.table(std::move(table));
+}
+
+void report_angle_errors(const std::vector<ExtractedPlane>& planes,
+                         const std::vector<TrueWall>& walls,
+                         Figures& figures) {
+  const std::vector<FoundWall> found = found_walls(planes, walls);
+  const AngleErrors errors = angle_errors(found);
+  figures.count("walls_found", "walls found", found.size());
+  figures.number("angle_error_max_deg", "largest error", errors.largest / kDegrees.factor, 4);
+  figures.number("angle_error_rms_over_sigma",
+                 "errors over stated uncertainties, rms",
+                 errors.rms_over_sigma,
+                 2);
 }
 
 }  // namespace facula

@@ -90,22 +90,36 @@ void register_room(RoomDemo& demo, const DemoSettings& settings, Session& sessio
                      session.figures.part("register", "3 Registering scans 2 and 3 to scan 1:"));
 }
 
+/// Thinned, with normals.
+PointCloud cloud_for_planes(const PointCloud& points, const DemoSettings& settings) {
+  PointCloud cloud = thin_by_voxel(points, settings.room_voxel() / 2);
+  NormalOptions normals;
+  normals.num_threads = settings.num_threads;
+  estimate_normals(cloud, normals);
+  return cloud;
+}
+
 void measure_planes(RoomDemo& demo,
                     const Scene& scene,
                     const DemoSettings& settings,
                     Session& session) {
   session.step("measuring planes", 1, 3);
-  demo.planes_cloud = thin_by_voxel(demo.project.fused(), settings.room_voxel() / 2);
-  NormalOptions normals;
-  normals.num_threads = settings.num_threads;
-  estimate_normals(demo.planes_cloud, normals);
   PlaneExtractionOptions options;
   options.seed = static_cast<unsigned>(settings.seed);
+  options.num_threads = settings.num_threads;
+  demo.planes_cloud = cloud_for_planes(demo.project.fused(), settings);
   demo.planes = extract_planes(demo.planes_cloud, options);
   write_planes_csv(settings.folder / "planes.csv", demo.planes);
-  report_plane_errors(demo.planes,
+  Figures& figures = session.figures.part("planes", "4 Planes against the room's walls:");
+  report_plane_errors(demo.planes, true_walls(scene), figures);
+  // A plane's uncertainty knows the noise of its points, not the error of the poses that joined
+  // scans, so that is looked at within one scan.
+  const PosedCloud& first = demo.project.scans.front();
+  const PointCloud one =
+      cloud_for_planes(transformed(first.cloud, first.world_from_scan), settings);
+  report_angle_errors(extract_planes(one, options),
                       true_walls(scene),
-                      session.figures.part("planes", "4 Planes against the room's walls:"));
+                      figures.part("one_scan", "Angles between walls within the first scan:"));
 }
 
 void make_mesh(RoomDemo& demo, const Scene& scene, const DemoSettings& settings, Session& session) {
