@@ -19,6 +19,9 @@ using HalfEdge = Surface::Halfedge_index;
 
 constexpr double kSmall = 0.4;            ///< share of the mesh's extent [1]
 constexpr std::size_t kMostEdges = 4000;  ///< minutes of work beyond [1]
+// Where no triangulation lies in the rim's Delaunay tetrahedra, all triangulations are searched in
+// time that grows with the cube of the edges: some seconds for so many.
+constexpr std::size_t kMostCubicEdges = 1000;
 
 struct Loop {
   HalfEdge start;
@@ -48,15 +51,17 @@ std::vector<Loop> loops_of(const Surface& surface) {
 
 /// A patch of continuous slope where the hole is small beside the mesh; a large one is spanned like
 /// a skin, since its rim says little about its middle (half a sphere would be blown up).
-bool fill(Surface& surface, HalfEdge start, bool small) {
+bool fill(Surface& surface, const Loop& loop, bool small) {
   std::vector<Surface::Face_index> faces;
   std::vector<Surface::Vertex_index> vertices;
   CGAL::Polygon_mesh_processing::triangulate_refine_and_fair_hole(
       surface,
-      start,
+      loop.start,
       std::back_inserter(faces),
       std::back_inserter(vertices),
-      CGAL::parameters::use_delaunay_triangulation(true).fairing_continuity(small ? 1 : 0));
+      CGAL::parameters::use_delaunay_triangulation(true)
+          .do_not_use_cubic_algorithm(loop.edges > kMostCubicEdges)
+          .fairing_continuity(small ? 1 : 0));
   return !faces.empty();
 }
 
@@ -72,7 +77,7 @@ TriangleMesh fill_holes(const TriangleMesh& mesh, double max_diameter, std::size
   std::size_t count = 0;
   for (const Loop& loop : loops_of(surface)) {
     if (loop.diameter > max_diameter || loop.edges > kMostEdges) continue;
-    if (fill(surface, loop.start, loop.diameter < kSmall * extent)) ++count;
+    if (fill(surface, loop, loop.diameter < kSmall * extent)) ++count;
   }
   if (filled != nullptr) *filled = count;
   TriangleMesh result = from_cgal(surface);

@@ -42,8 +42,8 @@ TriangleMesh without_islands(const TriangleMesh& mesh,
 /// Closes the boundary loops of a manifold whose box has a diagonal of at most `max_diameter` [m]
 /// with triangles of least area, refined to the density around and faired (Liepa 2003, CGAL). The
 /// longest loop of an open surface is one of them where it is short enough. Gives up on loops of
-/// more than 4000 edges. `filled`, when given, receives how many loops were closed. Throws Error
-/// where the mesh is no oriented manifold.
+/// more than 4000 edges, and on tangled ones of more than 1000. `filled`, when given, receives how
+/// many loops were closed. Throws Error where the mesh is no oriented manifold.
 TriangleMesh fill_holes(const TriangleMesh& mesh,
                         double max_diameter,
                         std::size_t* filled = nullptr);

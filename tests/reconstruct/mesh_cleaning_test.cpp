@@ -205,8 +205,11 @@ TEST(ColorMesh, TakesTheColourOfTheNearestPoints) {
   TriangleMesh mesh = sheet(10);
   color_mesh(mesh, cloud);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (mesh.vertices[v].x() < 0.45F) EXPECT_EQ(mesh.colors[v], (Color{200, 0, 0}));
-    if (mesh.vertices[v].x() > 0.55F) EXPECT_EQ(mesh.colors[v], (Color{0, 0, 100}));
+    if (mesh.vertices[v].x() < 0.45F) {
+      EXPECT_EQ(mesh.colors[v], (Color{200, 0, 0}));
+    } else if (mesh.vertices[v].x() > 0.55F) {
+      EXPECT_EQ(mesh.colors[v], (Color{0, 0, 100}));
+    }
   }
   cloud.colors.clear();
   color_mesh(mesh, cloud);
