@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// register_many bunny [SHUFFLES] | room [STEP_DEG] [--json]
+// register_many bunny [SHUFFLES] | room [STEP_DEG] | foreign
 //
 // Registration of many scans from nothing, against known poses. bunny: the ten scans of the set
 // range/stanford-bunny in shuffled orders, each order with 2 threads, the first also with 1.
 // room: eight stations of the simulated head in data/scenes/furnished_room.toml, from frames.
+// foreign: both sets, each with one scan of something else at a time, as a Markdown table.
 #include <facula/acquire/capture/capture_file.hpp>
 #include <facula/acquire/core/random.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
@@ -25,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "foreign_scans.hpp"
 #include <Eigen/Geometry>
 
 namespace facula {
@@ -239,7 +241,7 @@ PosedCloud seen_room(const Scene& scene,
   return seen;
 }
 
-int study_room(double step) {
+KnownProject eight_stations(double step) {
   const Scene scene = read_scene(shipped_data("scenes/furnished_room.toml"));
   const Rig rig = read_rig(shipped_data("rigs/head_fs1500.toml"));
   KnownProject known;
@@ -252,8 +254,12 @@ int study_room(double step) {
     const std::size_t number = known.project.scans.size() + 1;
     known.project.scans.push_back(seen_room(scene, rig, {pose, positions}, number));
     known.project.scans.back().name = "station" + std::to_string(number);
-    std::fprintf(stderr, "%s simulated\n", known.project.scans.back().name.c_str());
   }
+  return known;
+}
+
+int study_room(double step) {
+  const KnownProject known = eight_stations(step);
   Outcome outcome = registered(known, 2);
   report("room of eight stations", known, outcome);
   const Outcome alone = registered(known, 1);
@@ -263,11 +269,49 @@ int study_room(double step) {
   return 0;
 }
 
+/// One line per foreign scan, which is laid first into the set.
+void add_foreign(const char* set, const KnownProject& known, std::vector<PosedCloud> foreign) {
+  for (PosedCloud& scan : foreign) {
+    KnownProject mixed = known;
+    mixed.project.scans.insert(mixed.project.scans.begin(), scan);
+    mixed.truth.insert(mixed.truth.begin(), RigidTransform{});
+    Outcome outcome = registered(mixed, 0);
+    for (std::size_t i = 1; i < mixed.truth.size(); ++i) {
+      if (!outcome.result.scans[i].placed) continue;
+      const auto [angle, distance] = error_of_scan(mixed, outcome, i);
+      outcome.worst_angle = std::max(outcome.worst_angle, angle);
+      outcome.worst_distance = std::max(outcome.worst_distance, distance);
+    }
+    const bool placed = outcome.result.scans[0].placed;
+    std::printf("| %s | %s | %s | %zu of %zu | %.3f°, %.2f mm |\n",
+                set,
+                scan.name.c_str(),
+                placed ? "PLACED" : "refused",
+                outcome.result.placed - (placed ? 1 : 0),
+                known.truth.size(),
+                outcome.worst_angle / kDegree,
+                1000 * outcome.worst_distance);
+    std::fflush(stdout);
+  }
+}
+
+int study_foreign() {
+  std::puts("| set | with a scan of | that scan | the set's own scans placed | worst of these |");
+  std::puts("|---|---|---|---|---|");
+  if (const auto folder = real_data("range/stanford-bunny")) {
+    const ScanProject published = read_scan_project(*folder / "data" / "bun.conf");
+    add_foreign("bunny", shuffled(published, 0), foreign_objects());
+  }
+  add_foreign("room", eight_stations(2.4 * kDegree), foreign_rooms());
+  return 0;
+}
+
 int study(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   if (what == "bunny") return study_bunny(argc > 2 ? std::atoi(argv[2]) : 5);
+  if (what == "foreign") return study_foreign();
   if (what == "room") return study_room((argc > 2 ? std::atof(argv[2]) : 1.2) * kDegree);
-  std::fprintf(stderr, "expected bunny or room, got '%s'\n", what.c_str());
+  std::fprintf(stderr, "expected bunny, room or foreign, got '%s'\n", what.c_str());
   return 2;
 }
 
