@@ -67,9 +67,10 @@ void add_notes(const FlatnessArguments& a,
   }
   if (!cut.empty()) {
     figures.text("cut_planes", "planes cut by the search", cut);
-    figures.note("The points of plane " + cut +
-                 " fill the band of the search: the surface bends farther than that, and its "
-                 "flatness is larger. Raise --inlier-mm, or give --whole.");
+    figures.note(
+        "The points of plane " + cut +
+        " fill the band of the search: the surface or its noise reaches farther than that, and its "
+        "flatness is larger. Raise --inlier-mm, or give --whole.");
   }
   if (!is_cut(all.front().flatness, band)) {
     figures.note("Plane 1: " + flatness_verdict(all.front()));

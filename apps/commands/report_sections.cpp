@@ -82,7 +82,7 @@ std::vector<MeasuredFlatness> flatness_of(const PointCloud& cloud,
 
 std::string plane_caption(std::size_t number, const Flatness& flatness, double band) {
   const std::string cut = is_cut(flatness, band)
-                              ? " The surface bends out of the band of " +
+                              ? " The surface or its noise reaches beyond the band of " +
                                     fixed_text(1000 * band, 3) +
                                     " mm in which its points were sought (--plane-inlier-mm)."
                               : "";
