@@ -41,7 +41,7 @@ class GlbParts {
  public:
   /// Adds an accessor over the bytes added since the last one; returns its number.
   int add_view(
-      int target, int type, const char* shape, std::size_t count, std::string limits = "") {
+      int target, int type, const char* shape, std::size_t count, const std::string& limits = "") {
     const std::size_t length = binary.size() - begin_;
     views_ += std::string(views_.empty() ? "" : ",") + R"({"buffer":0,"byteOffset":)" +
               number_text(begin_) + R"(,"byteLength":)" + number_text(length) + R"(,"target":)" +

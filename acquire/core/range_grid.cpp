@@ -101,7 +101,7 @@ bool x_follows_from_column(const PointCloud& cloud, const ScanGrid& grid) {
 /// (y, z) of the point at which the rows' lines of sight meet; nothing told when they look
 /// parallel, then z is infinite.
 Eigen::Vector2d meeting_point(const PointCloud& cloud, const ScanGrid& grid) {
-  const Eigen::Vector2d parallel(0, std::numeric_limits<double>::infinity());
+  Eigen::Vector2d parallel(0, std::numeric_limits<double>::infinity());
   LeastSquares<4> fit;
   for_cells(cloud, grid, [&](double row, double, const Eigen::Vector3d& p) {
     fit.add({1, row, p.z(), row * p.z()}, p.y());

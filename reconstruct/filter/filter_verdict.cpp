@@ -5,9 +5,9 @@
 namespace facula {
 
 const char* to_string(Removal reason) {
-  constexpr std::array<const char*, kRemovals> names{
+  constexpr std::array<const char*, kRemovals> kNames{
       "kept", "not_finite", "mixed", "range", "incidence", "statistical", "radius"};
-  return names[static_cast<std::size_t>(reason)];
+  return kNames[static_cast<std::size_t>(reason)];
 }
 
 FilterVerdict::FilterVerdict(std::size_t points) : reason(points, Removal::kKept) {

@@ -45,6 +45,8 @@ class Smoother {
   Smoother(const PointCloud& cloud, const SmoothingOptions& options)
       : cloud_(cloud), options_(options), tree_(cloud.points, options.num_threads) {}
 
+  const NearestNeighbours& tree() const { return tree_; }
+
   std::optional<Landing> land(std::size_t i) const {
     const auto near = tree_.within(cloud_.points[i], float(kReach * options_.radius));
     const std::size_t coefficients = options_.order == 1 ? 3 : 6;
@@ -141,6 +143,26 @@ Eigen::Vector3f facing(const PointCloud& cloud, std::size_t i, const Eigen::Vect
   return n.dot(origin - cloud.points[i]) < 0 ? Eigen::Vector3f(-n) : n;
 }
 
+/// A radius that takes in thousands of points smooths nothing local and takes forever.
+void require_local(const PointCloud& cloud, const NearestNeighbours& tree, double reach) {
+  constexpr std::size_t kSamples = 64;
+  constexpr std::size_t kMost = 5000;
+  std::size_t worst = 0;
+  const std::size_t step = std::max<std::size_t>(1, cloud.size() / kSamples);
+  for (std::size_t i = 0; i < cloud.size(); i += step) {
+    if (!cloud.points[i].allFinite()) continue;
+    worst = std::max(worst, tree.within(cloud.points[i], float(reach)).size());
+  }
+  require(worst <= kMost,
+          "expected a smoothing radius that takes in at most ",
+          kMost,
+          " neighbours of a point, got one of ",
+          reach / kReach,
+          " m that takes in ",
+          worst,
+          "; give a smaller one or thin the points first");
+}
+
 }  // namespace
 
 void SmoothingOptions::check() const {
@@ -162,6 +184,7 @@ SmoothedCloud smooth(const PointCloud& cloud, const SmoothingOptions& options) {
   std::vector<float> move(cloud.size(), kNot);
   std::vector<float> ratio(cloud.size(), kNot);
   const Smoother smoother(cloud, options);
+  require_local(cloud, smoother.tree(), kReach * options.radius);
   const auto land = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!cloud.points[i].allFinite()) continue;

@@ -32,7 +32,8 @@ struct SmoothedCloud {
 /// between the neighbours adds. Points with fewer than twice as many neighbours (within 2.5 radii)
 /// as coefficients, points whose neighbours lie along a line (a single stripe: choose a larger
 /// radius), points whose surface misses its neighbours by more than their sigmas explain (an edge
-/// or a bend within the radius), and points that are not finite, stay as they are.
+/// or a bend within the radius), and points that are not finite, stay as they are. Throws Error
+/// when the radius takes in thousands of neighbours.
 SmoothedCloud smooth(const PointCloud& cloud, const SmoothingOptions& options);
 
 }  // namespace facula

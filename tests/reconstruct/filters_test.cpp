@@ -206,6 +206,13 @@ TEST(Smooth, LeavesLonelyAndUnknownPointsAlone) {
   EXPECT_NE(error_of([&] { smooth(cloud, {.radius = 1, .order = 3}); }), "");
 }
 
+TEST(Smooth, RefusesARadiusThatTakesInEverything) {
+  PointCloud cloud;
+  for (int i = 0; i < 6000; ++i) cloud.points.emplace_back(0.001F * float(i), 0.0F, 1.0F);
+  const std::string said = error_of([&] { smooth(cloud, {.radius = 1e6}); });
+  EXPECT_NE(said.find("give a smaller one"), std::string::npos) << said;
+}
+
 TEST(Smooth, BearsPointsThatSpanNoSurface) {
   PointCloud line;
   for (int i = 0; i < 50; ++i) line.points.emplace_back(0.01F * float(i), 0, 0);
