@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/cloud_file.hpp>
+#include <facula/acquire/core/mesh_file.hpp>
 #include <facula/acquire/core/random.hpp>
 #include <facula/tests/apps/cli/program_run.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
@@ -340,6 +341,20 @@ TEST_F(Measure, CompareRefusesReferencesWithoutASurface) {
   EXPECT_EQ(figures.at("reference"), "a mesh");
   EXPECT_NEAR(figures.at("most_mm").get<double>(), 3, 1e-3);
   EXPECT_NEAR(figures.at("least_mm").get<double>(), -1, 1e-3);
+}
+
+TEST_F(Measure, CompareReadsEveryFormatOfMeshes) {
+  write("points.pcd", points_alone({{0.2F, 0.2F, 1.003F}, {0.3F, 0.1F, 0.999F}}));
+  const TriangleMesh mesh{{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}}, {}, {}};
+  for (const std::string name : {"mesh.ply", "mesh.obj", "mesh.stl", "mesh.off", "mesh.glb"}) {
+    write_mesh(folder_ / name, mesh);
+    const Json to_mesh = figures_of("compare points.pcd --to " + name);
+    EXPECT_EQ(to_mesh.at("reference"), "a mesh") << name;
+    EXPECT_NEAR(to_mesh.at("most_mm").get<double>(), 3, 1e-3) << name;
+    const Json corners = figures_of("compare " + name + " --to mesh.ply");
+    EXPECT_EQ(corners.at("count"), 3) << name;
+    EXPECT_NEAR(corners.at("max_mm").get<double>(), 0, 1e-3) << name;
+  }
 }
 
 TEST_F(Measure, CompareToPointsWithoutASurfaceGivesDistancesAndSaysSo) {
