@@ -292,6 +292,10 @@ void add_foreign(const char* set, const KnownProject& known, std::vector<PosedCl
                 outcome.worst_angle / kDegree,
                 1000 * outcome.worst_distance);
     std::fflush(stdout);
+    std::fprintf(stderr,
+                 "%s stays; %s\n",
+                 mixed.project.scans[outcome.result.anchor].name.c_str(),
+                 outcome.result.scans[0].reason.c_str());
   }
 }
 
