@@ -6,28 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 namespace facula {
 namespace {
 
-constexpr double kPoints = 2000;           // wanted of a scan [1]
+constexpr std::size_t kPoints = 2000;      // wanted of a scan [1]
 constexpr double kFeatureRadius = 5;       // [voxels]
 constexpr double kReach = 3;               // of the lookup of near points [voxels]
 constexpr std::size_t kFewestPoints = 12;  // as register_pair() [1]
 
-/// The coarsest level that still has more points than wanted, or the finest.
-const PyramidLevel& level_for(const ScanPyramid& scan) {
-  require(!scan.levels.empty(), "the scan ", scan.name, " has no levels; use build_pyramid()");
-  for (const PyramidLevel& level : std::views::reverse(scan.levels)) {
-    if (static_cast<double>(level.cloud.size()) >= kPoints) return level;
-  }
-  return scan.levels.front();
-}
-
 /// The points thinned to the voxel whose normals are known and agree within it.
 PointCloud thinned(const ScanPyramid& scan, double voxel) {
-  const PyramidLevel& level = level_for(scan);
+  const PyramidLevel& level = coarsest_level(scan, kPoints);
   PointCloud all = voxel > level.voxel ? thin_by_voxel(level.cloud, voxel) : level.cloud;
   require(!all.normals.empty(), "the scan ", scan.name, " has no normals; use build_pyramid()");
   std::vector<std::size_t> kept;
@@ -62,8 +52,8 @@ double feature_voxel(const std::vector<const ScanPyramid*>& scans) {
   double voxel = 0;
   for (const ScanPyramid* scan : scans) {
     require(scan != nullptr, "a scan is missing (null); give pyramids of build_pyramid()");
-    const PyramidLevel& level = level_for(*scan);
-    const double many = static_cast<double>(level.cloud.size()) / kPoints;
+    const PyramidLevel& level = coarsest_level(*scan, kPoints);
+    const double many = static_cast<double>(level.cloud.size()) / static_cast<double>(kPoints);
     // The points of a surface fall with the square of the voxel.
     voxel = std::max(voxel, level.voxel * std::sqrt(std::max(1.0, many)));
   }

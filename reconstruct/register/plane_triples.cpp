@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 
 #include <Eigen/Dense>
 
@@ -70,18 +69,10 @@ RigidTransform pose_of(const Eigen::Matrix3d& s,
   return {Eigen::Quaterniond(rotation).normalized(), t.inverse() * farther};
 }
 
-/// The coarsest level with enough points, or the finest.
-const PyramidLevel& level_for(const ScanPyramid& scan) {
-  for (const PyramidLevel& level : std::views::reverse(scan.levels)) {
-    if (level.cloud.size() >= kPoints) return level;
-  }
-  return scan.levels.front();
-}
-
 }  // namespace
 
 std::vector<Plane> room_planes(const ScanPyramid& scan, int num_threads) {
-  const PyramidLevel& level = level_for(scan);
+  const PyramidLevel& level = coarsest_level(scan, kPoints);
   const PointCloud& cloud = level.cloud;
   const auto least = static_cast<std::size_t>(kPlaneShare * static_cast<double>(cloud.size()));
   if (least < 12 || cloud.normals.empty()) return {};

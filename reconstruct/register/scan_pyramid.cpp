@@ -141,4 +141,12 @@ ScanPyramid build_pyramid(const PosedCloud& scan, const PyramidOptions& options)
   return pyramid;
 }
 
+const PyramidLevel& coarsest_level(const ScanPyramid& scan, std::size_t least_points) {
+  require(!scan.levels.empty(), "the scan ", scan.name, " has no levels; use build_pyramid()");
+  for (auto level = scan.levels.rbegin(); level != scan.levels.rend(); ++level) {
+    if (level->cloud.size() >= least_points) return *level;
+  }
+  return scan.levels.front();
+}
+
 }  // namespace facula

@@ -4,6 +4,7 @@
 #include <facula/reconstruct/filter/nearest_neighbours.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -37,5 +38,8 @@ struct ScanPyramid {
 /// Normals are the scan's own, or its grid's, or those of neighbours. Throws Error naming the scan
 /// when fewer than 12 finite points or no surface are left.
 ScanPyramid build_pyramid(const PosedCloud& scan, const PyramidOptions& options = {});
+
+/// The coarsest level with at least so many points, or the finest. Throws Error when there is none.
+const PyramidLevel& coarsest_level(const ScanPyramid& scan, std::size_t least_points);
 
 }  // namespace facula
