@@ -148,8 +148,10 @@ class CellFilter {
       const double d = n.dot(extremes[a]) - margin;
       for (int k = 0; k < kGrid * kGrid; ++k) {
         const auto corner = static_cast<std::size_t>(k);
-        const double rest = d - n.x() * (low_.x() + (k % kGrid) * size_.x()) -
-                            n.y() * (low_.y() + (k / kGrid) * size_.y());
+        const int column = k % kGrid;
+        const int row = k / kGrid;
+        const double rest =
+            d - n.x() * (low_.x() + column * size_.x()) - n.y() * (low_.y() + row * size_.y());
         if (n.z() > 0) most[corner] = std::min(most[corner], rest / n.z());
         if (n.z() < 0) least[corner] = std::max(least[corner], rest / n.z());
         if (n.z() == 0 && rest < 0) most[corner] = -kInfinity;

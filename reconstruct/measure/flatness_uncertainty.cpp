@@ -103,7 +103,7 @@ FlatnessUncertainty summary_of(const std::vector<Trial>& trials, double measured
   result.total_sigma = std::sqrt(result.total_sigma);
   result.total_growth = mean - measured;
   std::sort(floors.begin(), floors.end());
-  result.floor_p95 = floors[static_cast<std::size_t>(0.95 * (n - 1) + 0.5)];
+  result.floor_p95 = floors[static_cast<std::size_t>(std::lround(0.95 * (n - 1)))];
   return result;
 }
 

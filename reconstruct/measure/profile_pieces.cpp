@@ -61,7 +61,7 @@ bool serves(const Profile& profile, const ProfilePiece& piece, double tolerance)
 std::optional<std::size_t> cut_of(const Profile& profile,
                                   const ProfileSpan& span,
                                   double tolerance) {
-  const Eigen::Vector2d from = profile[span.first];
+  const Eigen::Vector2d& from = profile[span.first];
   const Eigen::Vector2d chord = profile[span.last - 1] - from;
   const double length = chord.norm();
   double farthest = 0;

@@ -116,9 +116,9 @@ std::optional<Sphere> best_of_trials(const PointCloud& cloud, const ShapeSearchO
   std::size_t most = 0;
   double trials = options.trials;
   for (int t = 0; t < trials; ++t) {
-    std::vector<Eigen::Vector3d> four;
-    for (int k = 0; k < 4; ++k) {
-      four.emplace_back(cloud.points[finite[random.below(finite.size())]].cast<double>());
+    std::vector<Eigen::Vector3d> four(4);
+    for (Eigen::Vector3d& p : four) {
+      p = cloud.points[finite[random.below(finite.size())]].cast<double>();
     }
     const std::optional<Sphere> sphere = algebraic_sphere(four);
     if (!sphere || sphere->radius < options.min_radius || sphere->radius > options.max_radius) {

@@ -13,6 +13,7 @@ constexpr double kNear = 1.5;  // nearest point on the same piece of surface [vo
 constexpr double kOnSurface = 0.6;  // distance from its tangent plane [voxels of the surface]
 constexpr double kOffSurface =
     4;  // farther away: not a misfit, another surface [voxels of the surface]
+constexpr double kScatters = 2;     // that count as on the surface [1]
 constexpr double kMinCosine = 0.8;  // between two normals that agree
 constexpr double kFree = 3;         // in front of what was seen by this [voxels of the surface]
 constexpr std::size_t kMaxQueries = 6000;  // of one scan
@@ -34,12 +35,14 @@ class OneWay {
   OneWay(const ScanPyramid& from,
          const ScanWithView& to,
          const RigidTransform& to_from_from,
-         std::size_t level)
-      : asked_(level_of(from, level + 1)),
-        surface_(level_of(to.scan, level)),
+         const PoseScoreOptions& options)
+      : asked_(level_of(from, options.level + 1)),
+        surface_(level_of(to.scan, options.level)),
         view_(to.view),
         pose_(to_from_from),
-        voxel_(std::max(level_of(from, level).voxel, surface_.voxel)),
+        voxel_(std::max({level_of(from, options.level).voxel,
+                         surface_.voxel,
+                         kScatters * options.scatter / kOnSurface})),
         sided_(from.oriented && to.scan.oriented),
         stride_((asked_.cloud.size() + kMaxQueries - 1) / kMaxQueries) {}
 
@@ -111,9 +114,9 @@ PoseScore score_pose(const ScanWithView& source,
           "a scan has no levels; use build_pyramid()");
   const RigidTransform source_from_target = target_from_source.inverse();
   const Tally there =
-      OneWay(source.scan, target, target_from_source, options.level).tally(options.num_threads);
+      OneWay(source.scan, target, target_from_source, options).tally(options.num_threads);
   const Tally back =
-      OneWay(target.scan, source, source_from_target, options.level).tally(options.num_threads);
+      OneWay(target.scan, source, source_from_target, options).tally(options.num_threads);
   const Tally both = there + back;
   PoseScore score;
   score.overlap = std::max(share(there.meet, there.asked), share(back.meet, back.asked));

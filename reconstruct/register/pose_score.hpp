@@ -27,6 +27,8 @@ struct ScanWithView {
 
 struct PoseScoreOptions {
   std::size_t level = 0;  ///< of the scans' surfaces; points of the next coarser are asked [1]
+  double scatter = 0;     ///< 1 standard deviation of scans about the surface they share, where it
+                          ///< is known to exceed their sampling [m]
   int num_threads = 0;    ///< 0 = all cores [1]
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/median.hpp>
 #include <facula/reconstruct/register/joint_refinement.hpp>
 #include <facula/reconstruct/register/register_scans.hpp>
 #include <facula/reconstruct/register/scan_checks.hpp>
@@ -15,6 +16,15 @@ namespace {
 constexpr double kLooseVoxels = 1.0;     // scan sigma while only right and wrong are told apart
 constexpr double kTightVoxels = 0.001;   // least scan sigma of refined pairs
 constexpr std::size_t kSearchSteps = 4;  // a search takes about as long as this many refinements
+
+/// Over the pairs that are kept [m].
+double median_rms(const std::vector<ScanEdge>& edges) {
+  std::vector<double> values;
+  for (const ScanEdge& edge : edges) {
+    if (edge.verdict == EdgeVerdict::kKept) values.push_back(edge.inlier_rms);
+  }
+  return median(values);
+}
 
 bool poses_differ(const ScanProject& project) {
   const RigidTransform first = project.scans.front().world_from_scan.inverse();
@@ -123,7 +133,9 @@ RegisterScansResult register_scans(ScanProject& project, const RegisterScansOpti
 
   result.edges = merged(refined(scans, network, options, progress), edges);
   network = join_scans(project, result.edges, options, kLooseVoxels * voxel);
-  drop_contradicted(network, options.num_threads, scans, result.edges);
+  // Poses that were given are evidence of their own: scans then may scatter as much as they do.
+  const double scatter = result.from_given ? median_rms(result.edges) : 0;
+  drop_contradicted(network, scatter, options.num_threads, scans, result.edges);
 
   RegisterScansOptions plain = options;  // what is wrong was given up by now
   plain.graph.robust = false;

@@ -18,6 +18,7 @@ namespace {
 // that show something else reach 0.5 and more.
 constexpr double kMostDoubt = 0.45;          // misfit plus twice the contradiction [1]
 constexpr double kMostContradiction = 0.05;  // whatever the misfit [1]
+constexpr double kMostIfKnown = 2.0 / 3;     // of either, where the poses were given [1]
 constexpr double kTellingOverlap = 0.1;      // misfit of scans that share less tells nothing [1]
 
 using Pair = std::pair<std::size_t, std::size_t>;
@@ -27,7 +28,11 @@ struct PairCheck {
   Pair scans;
   PoseScore score;
 
-  bool fails() const {
+  /// `known`: the poses were given, which is evidence of its own; bent and tilted scanners make
+  /// scans that are neighbours for certain stand off each other, so only a plain contradiction
+  /// counts.
+  bool fails(bool known) const {
+    if (known) return score.contradiction > kMostIfKnown || score.misfit > kMostIfKnown;
     const double doubt = score.misfit + 2 * score.contradiction;
     return score.contradiction > kMostContradiction ||
            (score.overlap >= kTellingOverlap && doubt > kMostDoubt);
@@ -37,7 +42,7 @@ struct PairCheck {
 std::vector<PairCheck> check_pairs(const ReadyScans& scans,
                                    const std::vector<ScanView>& views,
                                    const PoseGuesses& world_from_scan,
-                                   int num_threads) {
+                                   const PoseScoreOptions& how) {
   std::vector<PairCheck> checks;
   for (const Pair& pair : scans.pairs()) {
     if (world_from_scan[pair.first] && world_from_scan[pair.second]) checks.push_back({pair, {}});
@@ -49,17 +54,19 @@ std::vector<PairCheck> check_pairs(const ReadyScans& scans,
                    checks[c].score = score_pose({*scans.pyramids[a], views[a]},
                                                 {*scans.pyramids[b], views[b]},
                                                 world_from_scan[b]->inverse() * *world_from_scan[a],
-                                                {.num_threads = 1});
+                                                {.scatter = how.scatter, .num_threads = 1});
                  }
                },
-               {.num_threads = num_threads, .chunk = 1});
+               {.num_threads = how.num_threads, .chunk = 1});
   return checks;
 }
 
 /// Scans to give up so that no two that stay contradict each other: the one with the most failed
 /// pairs goes first, of equal ones the one that shares less with the others. The scans' first
 /// failed pairs are kept as reasons.
-std::vector<const PairCheck*> misfits(const std::vector<PairCheck>& checks, std::size_t count) {
+std::vector<const PairCheck*> misfits(const std::vector<PairCheck>& checks,
+                                      std::size_t count,
+                                      bool known) {
   std::vector<const PairCheck*> given_up(count, nullptr);
   std::vector<double> shared(count);
   for (const PairCheck& check : checks) {
@@ -71,7 +78,7 @@ std::vector<const PairCheck*> misfits(const std::vector<PairCheck>& checks, std:
     std::vector<const PairCheck*> why(count, nullptr);
     for (const PairCheck& check : checks) {
       const auto [a, b] = check.scans;
-      if (given_up[a] != nullptr || given_up[b] != nullptr || !check.fails()) continue;
+      if (given_up[a] != nullptr || given_up[b] != nullptr || !check.fails(known)) continue;
       for (const std::size_t i : {a, b}) {
         ++failed[i];
         if (why[i] == nullptr) why[i] = &check;
@@ -150,12 +157,17 @@ std::string why_refused(const std::vector<ScanEdge>& edges, std::size_t scan) {
 }  // namespace
 
 void drop_contradicted(const ScanNetwork& network,
+                       double scatter,
                        int num_threads,
                        ReadyScans& scans,
                        std::vector<ScanEdge>& edges) {
   const std::vector<PairCheck> checks =
-      check_pairs(scans, views_of(scans, num_threads), network.world_from_scan, num_threads);
-  const std::vector<const PairCheck*> given_up = misfits(checks, network.world_from_scan.size());
+      check_pairs(scans,
+                  views_of(scans, num_threads),
+                  network.world_from_scan,
+                  {.scatter = scatter, .num_threads = num_threads});
+  const std::vector<const PairCheck*> given_up =
+      misfits(checks, network.world_from_scan.size(), scatter > 0);
   for (std::size_t i = 0; i < given_up.size(); ++i) {
     if (given_up[i] != nullptr) scans.refusals[i] = sentence(*given_up[i]);
   }

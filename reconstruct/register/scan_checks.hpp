@@ -10,8 +10,11 @@
 namespace facula {
 
 /// Holds every scan of the network against all others and gives up scans until no two that stay
-/// contradict each other: their edges are refused, and scans.refusals says why.
+/// contradict each other: their edges are refused, and scans.refusals says why. `scatter` [m]: 1
+/// standard deviation of the scans about the surfaces they share, where poses were given and that
+/// is known; 0 = below their sampling.
 void drop_contradicted(const ScanNetwork& network,
+                       double scatter,
                        int num_threads,
                        ReadyScans& scans,
                        std::vector<ScanEdge>& edges);

@@ -143,10 +143,9 @@ ScanPyramid build_pyramid(const PosedCloud& scan, const PyramidOptions& options)
 
 const PyramidLevel& coarsest_level(const ScanPyramid& scan, std::size_t least_points) {
   require(!scan.levels.empty(), "the scan ", scan.name, " has no levels; use build_pyramid()");
-  for (auto level = scan.levels.rbegin(); level != scan.levels.rend(); ++level) {
-    if (level->cloud.size() >= least_points) return *level;
-  }
-  return scan.levels.front();
+  std::size_t level = scan.levels.size() - 1;
+  while (level > 0 && scan.levels[level].cloud.size() < least_points) --level;
+  return scan.levels[level];
 }
 
 }  // namespace facula

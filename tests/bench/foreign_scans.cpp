@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "foreign_scans.hpp"
-
 #include <facula/acquire/core/random.hpp>
 #include <facula/acquire/rig/rig_file.hpp>
 #include <facula/acquire/simulate/scene.hpp>
 #include <facula/acquire/simulate/simulate.hpp>
+#include <facula/tests/bench/foreign_scans.hpp>
 #include <facula/tests/support/real_data.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
 

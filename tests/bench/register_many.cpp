@@ -13,6 +13,7 @@
 #include <facula/acquire/triangulate/extract_scan.hpp>
 #include <facula/reconstruct/filter/scan_filters.hpp>
 #include <facula/reconstruct/register/register_scans.hpp>
+#include <facula/tests/bench/foreign_scans.hpp>
 #include <facula/tests/support/real_data.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
 
@@ -26,7 +27,6 @@
 #include <utility>
 #include <vector>
 
-#include "foreign_scans.hpp"
 #include <Eigen/Geometry>
 
 namespace facula {

@@ -45,7 +45,10 @@ check() {
   key=$( (echo "$TIDY_SHARED $command"; cd "$TIDY_ROOT"; closure "${file#"$TIDY_ROOT"/}" |
             xargs -r -d '\n' cat 2>/dev/null) | sha256sum | cut -c 1-40)
   [[ -e $TIDY_BUILD/tidy/$key ]] && return 0
-  if output=$(clang-tidy -p "$TIDY_BUILD" --quiet "$file" 2>&1); then
+  # The analyzer cannot follow the storage of CGAL's exact numbers (Mpzf).
+  local checks=()
+  [[ $file != *_cgal.cpp ]] || checks=(--checks=-clang-analyzer-cplusplus.NewDelete)
+  if output=$(clang-tidy -p "$TIDY_BUILD" --quiet "${checks[@]}" "$file" 2>&1); then
     touch "$TIDY_BUILD/tidy/$key"
   else
     grep -E 'error:|warning:|note:' <<<"$output" || echo "$output"
