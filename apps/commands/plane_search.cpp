@@ -46,10 +46,11 @@ bool all_lists(const std::vector<std::filesystem::path>& paths) {
 
 /// The sweeps asked for. Both together carry the play of the gears, which looks like noise.
 PanTiltList chosen_sweeps(const PlaneSearch& search, Session& session) {
-  PanTiltList list = read_pan_tilt_list(search.scans.front());
-  PanTiltSweeps sweeps = sweeps_of(list);
-  if (search.sweeps == "rising") list = std::move(sweeps.rising);
-  if (search.sweeps == "falling") list = std::move(sweeps.falling);
+  const PanTiltList all = read_pan_tilt_list(search.scans.front());
+  const PanTiltSweeps sweeps = sweeps_of(all);
+  const PanTiltList& list = search.sweeps == "rising"    ? sweeps.rising
+                            : search.sweeps == "falling" ? sweeps.falling
+                                                         : all;
   require(list.size() > 0,
           "expected ",
           search.sweeps,
