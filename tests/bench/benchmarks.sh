@@ -8,6 +8,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 page=$(realpath "${1:-$root/BENCHMARKS.md}")
 only=${FACULA_BENCH_ONLY:-}
+[[ -r $page ]] || { echo "expected a page to measure anew, got '$page', which cannot be read" >&2; exit 2; }
 cd "$root"
 if [[ -z ${FACULA_BENCH_BUILT:-} ]]; then
   apps/setup.sh
@@ -36,6 +37,7 @@ while IFS= read -r line || [[ -n $line ]]; do
 done <"$page"
 [[ -z $inside ]] || { echo "$page: '$inside' has no end" >&2; exit 1; }
 chmod --reference="$page" "$fresh"
+sync "$fresh"
 mv "$fresh" "$page"
 trap - EXIT
 echo "written: $page" >&2

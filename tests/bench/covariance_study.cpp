@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // covariance_study [PAIRS [FIRST_SEED]]: registers simulated pairs of scans and says how often the
-// true pose lies within the 95 % bounds of the covariance that register_pair() states.
+// true pose lies within the 95 % bounds of the covariance that register_pair() states, in Markdown.
 #include <facula/reconstruct/register/pair_registration.hpp>
 #include <facula/tests/reconstruct/simulated_pair.hpp>
 
@@ -48,8 +48,7 @@ struct Study {
   void print() const {
     const double n = pairs;
     std::printf(
-        "%-28s %4d pairs: %5.1f %% inside, %4.1f %% below, %4.1f %% above; mean %5.2f (6); "
-        "rms error %.3f mm, stated %.3f mm; %.5f deg, stated %.5f deg\n",
+        "| %s | %d | %.1f %% | %.1f %% | %.1f %% | %.2f | %.3f mm, %.5f° | %.3f mm, %.5f° |\n",
         name,
         pairs,
         100 * (n - low - high) / n,
@@ -57,8 +56,8 @@ struct Study {
         100 * high / n,
         sum / n,
         std::sqrt(found_mm / n),
-        std::sqrt(stated_mm / n),
         std::sqrt(found_deg / n),
+        std::sqrt(stated_mm / n),
         std::sqrt(stated_deg / n));
   }
 };
@@ -90,6 +89,8 @@ void study_all(int pairs, std::uint64_t first) {
     const SimulatedPair pair = simulate_pair({.seed = first + static_cast<std::uint64_t>(i)});
     for (Study& study : studies) run(study, pair);
   }
+  std::puts("| method | pairs | inside | below | above | mean | rms error | stated |");
+  std::puts("|---|---|---|---|---|---|---|---|");
   for (const Study& study : studies) study.print();
 }
 

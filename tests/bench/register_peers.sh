@@ -1,23 +1,24 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# register_peers.sh BUN_CONF [ROUNDS]: Facula's pair registration beside Open3D's on pairs of bunny
-# scans, from the loaded points (normals, covariances and search trees included) and the loop alone,
-# in turn on the same cores. Prints medians over all rounds. Needs build/release and Debian's
-# python3-open3d.
+# register_peers.sh BIN_FOLDER BUN_CONF [ROUNDS]: our pair registration and Open3D's
+# (apps/setup.sh --peers) on pairs of bunny scans, in turn on the same cores; prints a table in Markdown
+# with the medians over all rounds: from the loaded points (normals, covariances and search trees
+# included), the loop alone, and how far off the published pose it ends.
 set -euo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
-conf=$1
-rounds=${2:-5}
+here=$(cd "$(dirname "$0")" && pwd)
+speed=$1/register_speed
+conf=$2
+rounds=${3:-5}
 folder=$(mktemp -d)
 trap 'rm -r "$folder"' EXIT
-speed=$root/build/release/bin/register_speed
 "$speed" write "$conf" "$folder/pairs"
 for _ in $(seq "$rounds"); do
   "$speed" time "$conf" 2 >>"$folder/lines"
   OMP_NUM_THREADS=${OMP_NUM_THREADS:-$(nproc)} \
-    /usr/bin/python3 "$root/tests/bench/register_peers.py" "$folder/pairs" 2 >>"$folder/lines"
+    /usr/bin/python3 "$here/register_peers.py" "$folder/pairs" 2 >>"$folder/lines"
 done
-printf '%-24s %-16s %10s %10s %10s %10s\n' who pair total_ms loop_ms off_deg off_mm
+printf '| pair | method | total | loop | off |\n'
+printf -- '|---|---|---|---|---|\n'
 sort -k2,2 -k1,1 -s "$folder/lines" | LC_ALL=C awk '
   function middle(values, n,   i, j, v) {
     for (i = 2; i <= n; ++i) {
@@ -28,8 +29,8 @@ sort -k2,2 -k1,1 -s "$folder/lines" | LC_ALL=C awk '
     return values[int((n + 1) / 2)]
   }
   function flush() {
-    if (n) printf "%-24s %-16s %10.1f %10.1f %10.4f %10.4f\n", who, pair, middle(total, n),
-                  middle(loop, n), degrees, millimetres
+    if (n) printf "| %s | %s | %.1f ms | %.1f ms | %.4f°, %.4f mm |\n", pair, who,
+                  middle(total, n), middle(loop, n), degrees, millimetres
     n = 0
   }
   $1 != who || $2 != pair { flush(); who = $1; pair = $2 }
