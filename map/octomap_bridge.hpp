@@ -4,14 +4,47 @@
 #include <facula/acquire/core/point_cloud.hpp>
 #include <facula/acquire/core/rigid_transform.hpp>
 #include <facula/map/occupancy_map.hpp>
+#include <facula/map/octree_file.hpp>
+
+#include <memory>
+#include <sstream>
 
 #include <octomap/OcTree.h>
 #include <octomap/Pointcloud.h>
 
 namespace facula {
 
-// For programs that use OctoMap themselves. An OccupancyMap's tree is OccupancyMap::octree(); the
-// way back is OccupancyMap::from_octree().
+// For programs that use OctoMap themselves, and link it: Facula's own libraries do not.
+
+/// OctoMap's tree with this map's cells and sensor model.
+inline std::unique_ptr<octomap::OcTree> to_octomap(const OccupancyMap& map) {
+  auto tree = std::make_unique<octomap::OcTree>(map.resolution());
+  tree->setProbHit(map.options().hit);
+  tree->setProbMiss(map.options().miss);
+  tree->setClampingThresMin(map.options().clamp_min);
+  tree->setClampingThresMax(map.options().clamp_max);
+  if (map.bricks().entries().empty()) return tree;
+  std::stringstream bytes;
+  write_ot(bytes, map.bricks(), map.resolution());
+  std::string line;
+  while (line != "data") std::getline(bytes, line);
+  tree->readData(bytes);
+  return tree;
+}
+
+/// A map with this tree's cells, resolution and sensor model. Where the tree holds eight equal
+/// leaves (it was filled with lazy_eval and never pruned), the map stands for the pruned tree.
+inline OccupancyMap from_octomap(const octomap::OcTree& tree) {
+  OccupancyMap map({.resolution = tree.getResolution(),
+                    .hit = tree.getProbHit(),
+                    .miss = tree.getProbMiss(),
+                    .clamp_min = tree.getClampingThresMin(),
+                    .clamp_max = tree.getClampingThresMax()});
+  std::ostringstream bytes;
+  tree.write(bytes);
+  map.bricks() = parse_octree(bytes.str(), map.options().model(), "OcTree").map;
+  return map;
+}
 
 inline octomap::point3d to_octomap(const Eigen::Vector3f& x) {
   return {x.x(), x.y(), x.z()};

@@ -1,21 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
-#include <memory>
+#include <facula/map/log_odds_map.hpp>
 
-namespace octomap {
-class OcTree;
-}
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <string_view>
 
 namespace facula {
 
-/// Reads OctoMap's .ot or .bt. Everything is checked before OctoMap sees it, since OctoMap itself
-/// prints to stderr and takes a torn file for a smaller map. Throws Error.
-std::unique_ptr<octomap::OcTree> read_octree(const std::filesystem::path& path);
+/// A map and its resolution, as OctoMap's files hold them.
+struct OctreeContent {
+  double resolution = 0;  ///< edge of a cell [m]
+  LogOddsMap map;
+};
 
-/// Writes .ot (every log-odds value) or .bt (free or occupied, from a copy), by the extension.
-/// Throws Error on another extension or where the file cannot be written.
-void write_octree(const std::filesystem::path& path, const octomap::OcTree& tree);
+/// Reads OctoMap's .ot or .bt from memory; in a .bt occupied cells get the model's largest
+/// log-odds, free ones the least. `name` is the file's name for messages. Throws Error where a file
+/// is torn or damaged, or its leaves cover more space than bricks can be made for.
+OctreeContent parse_octree(std::string_view file,
+                           const LogOddsModel& model,
+                           const std::string& name);
+
+/// The same from a file.
+OctreeContent read_octree(const std::filesystem::path& path, const LogOddsModel& model);
+
+/// Writes .ot: every log-odds value; the bytes of liboctomap's OcTree::write().
+void write_ot(std::ostream& stream, const LogOddsMap& map, double resolution);
+
+/// Writes .bt: free or occupied, whichever is likelier; the bytes of OcTree::writeBinary().
+void write_bt(std::ostream& stream, const LogOddsMap& map, double resolution);
 
 }  // namespace facula

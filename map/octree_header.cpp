@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::string_view kTextStart = "# Octomap OcTree file";
 constexpr std::string_view kBinaryStart = "# Octomap OcTree binary file";
-constexpr int kDepth = 16;
 
 template <typename Number>
 Number number_of(std::string_view text, std::string_view key, const std::string& name) {
@@ -90,7 +89,7 @@ class NodeWalk {
 
  private:
   void begin_node(int depth) {
-    require(depth <= kDepth, "'", name_, "' is damaged: its tree is deeper than 16 levels");
+    require(depth <= kTreeDepth, "'", name_, "' is damaged: its tree is deeper than 16 levels");
     ++nodes_;
   }
 
@@ -109,6 +108,51 @@ class NodeWalk {
   std::string_view bytes_;
   const std::string& name_;
   std::size_t nodes_ = 0;
+};
+
+/// Reads the leaves of a file that is known to be whole.
+class LeafWalk {
+ public:
+  LeafWalk(std::string_view bytes,
+           std::pair<float, float> free_and_occupied,
+           const std::function<void(const OctreeLeaf&)>& visit)
+      : bytes_(bytes), free_and_occupied_(free_and_occupied), visit_(visit) {}
+
+  void walk_text_node(int level, const CellKey& first) {
+    float value = 0;
+    std::memcpy(&value, bytes_.data(), sizeof value);
+    const auto children = static_cast<unsigned char>(bytes_[sizeof value]);
+    bytes_.remove_prefix(sizeof value + 1);
+    if (children == 0) return visit_({level, first, value});
+    for (int i = 0; i < 8; ++i) {
+      if ((children >> i & 1) != 0) walk_text_node(level - 1, child_of(first, level, i));
+    }
+  }
+
+  void walk_binary_node(int level, const CellKey& first) {
+    const unsigned children = static_cast<unsigned char>(bytes_[0]) |
+                              static_cast<unsigned>(static_cast<unsigned char>(bytes_[1])) << 8;
+    bytes_.remove_prefix(2);
+    for (int i = 0; i < 8; ++i) {
+      const unsigned kind = children >> (2 * i) & 3;
+      const CellKey child = child_of(first, level, i);
+      if (kind == 1) visit_({level - 1, child, free_and_occupied_.first});
+      if (kind == 2) visit_({level - 1, child, free_and_occupied_.second});
+      if (kind == 3) walk_binary_node(level - 1, child);
+    }
+  }
+
+ private:
+  static CellKey child_of(const CellKey& first, int level, int child) {
+    const int edge = 1 << (level - 1);
+    return {first[0] + (child & 1) * edge,
+            first[1] + (child >> 1 & 1) * edge,
+            first[2] + (child >> 2 & 1) * edge};
+  }
+
+  std::string_view bytes_;
+  std::pair<float, float> free_and_occupied_;
+  const std::function<void(const OctreeLeaf&)>& visit_;
 };
 
 }  // namespace
@@ -164,6 +208,19 @@ void check_octree_nodes(const OctreeHeader& header,
           " and ",
           walk.bytes_left(),
           " bytes more");
+}
+
+void for_each_octree_leaf(const OctreeHeader& header,
+                          std::string_view file,
+                          std::pair<float, float> free_and_occupied,
+                          const std::function<void(const OctreeLeaf&)>& visit) {
+  if (header.nodes == 0) return;
+  LeafWalk walk(file.substr(header.data_begin), free_and_occupied, visit);
+  if (header.binary) {
+    walk.walk_binary_node(kTreeDepth, {0, 0, 0});
+  } else {
+    walk.walk_text_node(kTreeDepth, {0, 0, 0});
+  }
 }
 
 }  // namespace facula

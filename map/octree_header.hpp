@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <facula/map/cell_key.hpp>
+
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace facula {
 
@@ -23,5 +27,19 @@ OctreeHeader parse_octree_header(std::string_view file, const std::string& name)
 /// Walks over the nodes and throws Error unless they fill the file exactly, are as many as the
 /// header says, at most 16 levels deep, and hold finite values.
 void check_octree_nodes(const OctreeHeader& header, std::string_view file, const std::string& name);
+
+/// A leaf of the tree in a file.
+struct OctreeLeaf {
+  int level = 0;    ///< 0 is a cell, 16 the whole space [1]
+  CellKey first{};  ///< its lowest cell
+  float value = 0;  ///< log-odds [1]
+};
+
+/// Every leaf, in the file's order. `free_and_occupied` are the log-odds that a .bt's leaves stand
+/// for. The file must have passed check_octree_nodes().
+void for_each_octree_leaf(const OctreeHeader& header,
+                          std::string_view file,
+                          std::pair<float, float> free_and_occupied,
+                          const std::function<void(const OctreeLeaf&)>& visit);
 
 }  // namespace facula

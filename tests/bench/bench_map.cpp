@@ -43,7 +43,8 @@ octomap::OcTree map_with_octomap(double cell) {
 void insert(benchmark::State& state, int num_threads) {
   clouds();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(map_with_facula(resolution(state), num_threads).octree().size());
+    benchmark::DoNotOptimize(
+        map_with_facula(resolution(state), num_threads).bricks().entries().size());
   }
   report_scans(state);
 }
@@ -62,7 +63,8 @@ void insert_octomap(benchmark::State& state) {
     benchmark::DoNotOptimize(map_with_octomap(resolution(state)).size());
   }
   // A comparison of times is one only where the results are the same.
-  if (!(map_with_facula(resolution(state), 0).octree() == map_with_octomap(resolution(state)))) {
+  if (!(*to_octomap(map_with_facula(resolution(state), 0)) ==
+        map_with_octomap(resolution(state)))) {
     state.SkipWithError("the two maps differ");
   }
   report_scans(state);
@@ -71,6 +73,7 @@ void insert_octomap(benchmark::State& state) {
 void cells(benchmark::internal::Benchmark* bench) {
   bench->Arg(100)
       ->Arg(50)
+      ->Arg(20)
       ->ArgName("mm")
       ->Unit(benchmark::kMillisecond)
       ->MeasureProcessCPUTime()

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/atomic_file.hpp>
+#include <facula/acquire/core/error.hpp>
+#include <facula/map/occupancy_map.hpp>
+#include <facula/map/octree_file.hpp>
+#include <facula/map/pruned_octree.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace facula {
+namespace {
+
+/// Log-odds of a free or occupied cell: at least this is occupied.
+constexpr float kOccupied = 0.0F;
+
+void require_between(const char* field, double value, std::pair<double, double> bounds) {
+  require(value > bounds.first && value < bounds.second,
+          "OccupancyOptions: expected ",
+          field,
+          " between ",
+          bounds.first,
+          " and ",
+          bounds.second,
+          ", got ",
+          value);
+}
+
+/// In float, as OctoMap keeps it.
+float log_odds_of(double probability) {
+  return static_cast<float>(std::log(probability / (1 - probability)));
+}
+
+CellState state_of(std::optional<float> log_odds) {
+  if (!log_odds) return CellState::kUnknown;
+  return *log_odds >= kOccupied ? CellState::kOccupied : CellState::kFree;
+}
+
+}  // namespace
+
+void OccupancyOptions::check() const {
+  require(std::isfinite(resolution) && resolution > 0,
+          "OccupancyOptions: expected a resolution above 0 m, got ",
+          resolution);
+  require(std::isfinite(max_range) && max_range >= 0,
+          "OccupancyOptions: expected max_range of 0 m (no limit) or more, got ",
+          max_range);
+  require_between("hit", hit, {0.5, 1});
+  require_between("miss", miss, {0, 0.5});
+  require_between("clamp_min", clamp_min, {0, 0.5});
+  require_between("clamp_max", clamp_max, {0.5, 1});
+}
+
+LogOddsModel OccupancyOptions::model() const {
+  return {.hit = log_odds_of(hit),
+          .miss = log_odds_of(miss),
+          .min = log_odds_of(clamp_min),
+          .max = log_odds_of(clamp_max)};
+}
+
+CastOptions OccupancyOptions::cast() const {
+  return {.resolution = resolution,
+          .max_range = max_range,
+          .discretize = discretize,
+          .box = box,
+          .num_threads = num_threads};
+}
+
+OccupancyMap::OccupancyMap(const OccupancyOptions& options) : options_(options) {
+  options.check();
+}
+
+void OccupancyMap::insert(const PointCloud& cloud) {
+  insert(cells_of_scan(cloud, options_.cast()));
+}
+
+void OccupancyMap::insert(const ScanCells& scan) {
+  skipped_ += scan.skipped;
+  bricks_.apply(scan.bricks, options_.model(), options_.num_threads);
+}
+
+std::optional<float> OccupancyMap::log_odds(const Eigen::Vector3d& x) const {
+  const auto cell = cell_of(x, options_.resolution);
+  if (!cell) return std::nullopt;
+  const LogOddsBrick* brick = bricks_.find(brick_code(*cell));
+  return brick == nullptr ? std::nullopt : brick->value(cell_in_brick(*cell));
+}
+
+CellState OccupancyMap::state(const Eigen::Vector3d& x) const {
+  return state_of(log_odds(x));
+}
+
+CellState OccupancyMap::state_of_cell(const CellKey& cell) const {
+  const LogOddsBrick* brick = bricks_.find(brick_code(cell));
+  return brick == nullptr ? CellState::kUnknown : state_of(brick->value(cell_in_brick(cell)));
+}
+
+MapStatistics OccupancyMap::statistics() const {
+  MapStatistics statistics;
+  std::array<int, 3> low = {kKeyLimit, kKeyLimit, kKeyLimit};
+  std::array<int, 3> high = {0, 0, 0};
+  for_each_brick([&](const BrickView& brick) {
+    const auto occupied = static_cast<std::size_t>(brick.occupied.count());
+    statistics.occupied_cells += occupied;
+    statistics.free_cells += static_cast<std::size_t>(brick.known.count()) - occupied;
+    for_each_cell(brick.known, [&](std::size_t cell) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int key = brick.first[i] + static_cast<int>(cell >> (3 * i) & 7);
+        low[i] = std::min(low[i], key);
+        high[i] = std::max(high[i], key + 1);
+      }
+    });
+  });
+  statistics.nodes = PrunedOctree(bricks_).size();
+  statistics.memory = bricks_.memory_usage();
+  if (statistics.nodes == 0) return statistics;
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(options_.resolution / 2);
+  statistics.min = centre_of(low, options_.resolution) - half;
+  statistics.max = centre_of(high, options_.resolution) - half;
+  return statistics;
+}
+
+void OccupancyMap::for_each_leaf(
+    const std::function<void(const Eigen::Vector3d&, CellState, double)>& visit) const {
+  PrunedOctree(bricks_).for_each_node([&](const OctreeNode& node) {
+    if (node.children != 0) return;
+    const double edge = options_.resolution * (1 << node.level);
+    const Eigen::Vector3d low =
+        centre_of(node.first, options_.resolution).array() - options_.resolution / 2;
+    visit((low.array() + edge / 2).matrix(), state_of(node.value), edge);
+  });
+}
+
+void OccupancyMap::for_each_brick(const std::function<void(const BrickView&)>& visit) const {
+  for (const LogOddsMap::Entry* entry : bricks_.sorted()) {
+    visit({first_cell(entry->code), entry->brick.known(), entry->brick.at_least(kOccupied)});
+  }
+}
+
+void OccupancyMap::write(const std::filesystem::path& path) const {
+  const std::string extension = path.extension().string();
+  require(extension == ".ot" || extension == ".bt",
+          "cannot write the map '",
+          path.string(),
+          "': expected a name ending in .ot (probabilities) or .bt (free or occupied)");
+  AtomicFile file(path);
+  (extension == ".bt" ? write_bt : write_ot)(file.stream(), bricks_, options_.resolution);
+  file.commit();
+}
+
+OccupancyMap OccupancyMap::read(const std::filesystem::path& path) {
+  OctreeContent content = read_octree(path, OccupancyOptions().model());
+  OccupancyMap map({.resolution = content.resolution});
+  map.bricks_ = std::move(content.map);
+  return map;
+}
+
+}  // namespace facula

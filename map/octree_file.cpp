@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/error.hpp>
+#include <facula/map/octree_file.hpp>
+#include <facula/map/octree_header.hpp>
+#include <facula/map/pruned_octree.hpp>
+
+#include <cstring>
+#include <fstream>
+#include <locale>
+#include <ostream>
+#include <sstream>
+
+namespace facula {
+namespace {
+
+/// Most bricks a file may ask for: 1 GB of memory where every one holds one value.
+constexpr std::size_t kMaxBricks = std::size_t{1} << 25;
+
+/// Fewest digits (6 as OctoMap writes, else 17) that read back as the same number: OctoMap alone
+/// would write a resolution of 1/30 m as another one.
+int digits_for(double resolution) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << resolution;
+  std::istringstream back(text.str());
+  back.imbue(std::locale::classic());
+  double read = 0;
+  back >> read;
+  return read == resolution ? 6 : 17;
+}
+
+/// The header as OctoMap writes it, comments included.
+void write_header(std::ostream& stream,
+                  const char* first_line,
+                  std::size_t nodes,
+                  double resolution) {
+  std::ostringstream header;
+  header.imbue(std::locale::classic());
+  header.precision(digits_for(resolution));
+  header << first_line
+         << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
+            "id OcTree\nsize "
+         << nodes << "\nres " << resolution << "\ndata\n";
+  stream << header.str();
+}
+
+/// Puts the leaves of a file into bricks.
+class LeafCollector {
+ public:
+  LeafCollector(LogOddsMap& map, const std::string& name) : map_(map), name_(name) {}
+
+  void add(const OctreeLeaf& leaf) {
+    if (leaf.level >= kBrickLevel) return add_bricks(leaf);
+    const std::uint64_t code = brick_code(leaf.first);
+    if (code != code_) begin_brick(code);
+    const int edge = 1 << leaf.level;
+    for (int z = 0; z < edge; ++z) {
+      for (int y = 0; y < edge; ++y) {
+        for (int x = 0; x < edge; ++x) {
+          const std::size_t cell =
+              cell_in_brick({leaf.first[0] + x, leaf.first[1] + y, leaf.first[2] + z});
+          values_[cell] = leaf.value;
+          known_.set(cell);
+        }
+      }
+    }
+  }
+
+  void finish() {
+    if (!known_.none()) map_.find_or_add(code_).assign(values_, known_);
+    known_ = {};
+  }
+
+ private:
+  void begin_brick(std::uint64_t code) {
+    finish();
+    code_ = code;
+  }
+
+  void add_bricks(const OctreeLeaf& leaf) {
+    const std::size_t count = std::size_t{1} << (3 * (leaf.level - kBrickLevel));
+    bricks_ += count;
+    require(bricks_ <= kMaxBricks,
+            "'",
+            name_,
+            "' declares more space free or occupied than can be held: its leaves make more than ",
+            kMaxBricks,
+            " bricks of 8 x 8 x 8 cells");
+    const std::uint64_t first = brick_code(leaf.first);
+    for (std::size_t i = 0; i < count; ++i) map_.find_or_add(first + i).fill(leaf.value);
+  }
+
+  LogOddsMap& map_;
+  const std::string& name_;
+  LogOddsBrick::Values values_{};
+  CellMask known_;
+  std::uint64_t code_ = 0;
+  std::size_t bricks_ = 0;
+};
+
+std::string read_bytes(const std::filesystem::path& path) {
+  require(std::filesystem::is_regular_file(path),
+          "cannot read the map '",
+          path.string(),
+          "': there is no such file");
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  require(stream.is_open() && !stream.bad(), "cannot read the map '", path.string(), "'");
+  return std::move(bytes).str();
+}
+
+void append_bytes(std::string& bytes, const void* data, std::size_t count) {
+  bytes.append(static_cast<const char*>(data), count);
+}
+
+}  // namespace
+
+OctreeContent parse_octree(std::string_view file,
+                           const LogOddsModel& model,
+                           const std::string& name) {
+  const OctreeHeader header = parse_octree_header(file, name);
+  OctreeContent content{.resolution = header.resolution, .map = {}};
+  check_octree_nodes(header, file, name);
+  LeafCollector collector(content.map, name);
+  for_each_octree_leaf(
+      header, file, {model.min, model.max}, [&](const OctreeLeaf& leaf) { collector.add(leaf); });
+  collector.finish();
+  return content;
+}
+
+OctreeContent read_octree(const std::filesystem::path& path, const LogOddsModel& model) {
+  return parse_octree(read_bytes(path), model, path.string());
+}
+
+void write_ot(std::ostream& stream, const LogOddsMap& map, double resolution) {
+  const PrunedOctree tree(map);
+  write_header(stream, "# Octomap OcTree file", tree.size(), resolution);
+  std::string bytes;
+  bytes.reserve(5 * tree.size());
+  tree.for_each_node([&](const OctreeNode& node) {
+    append_bytes(bytes, &node.value, sizeof node.value);
+    append_bytes(bytes, &node.children, 1);
+  });
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+void write_bt(std::ostream& stream, const LogOddsMap& map, double resolution) {
+  // 1 stands for occupied, 0 for free. An inner node holds two bits per child: 1 free leaf, 2
+  // occupied leaf, 3 inner node; what its children are is known once they have been met.
+  const PrunedOctree tree(map, [](float value) { return value >= 0 ? 1.0F : 0.0F; });
+  write_header(stream, "# Octomap OcTree binary file", tree.size(), resolution);
+  std::string bytes;
+  std::array<std::size_t, kTreeDepth + 1> place{};  // of the inner node being written, per level
+  tree.for_each_node([&](const OctreeNode& node) {
+    const auto level = static_cast<std::size_t>(node.level);
+    const bool leaf = node.children == 0;
+    if (level < kTreeDepth) {
+      const auto bit = [&](std::size_t axis) { return (node.first[axis] >> level & 1) << axis; };
+      const int child = bit(0) | bit(1) | bit(2);
+      const unsigned kind = !leaf ? 3 : node.value > 0 ? 2 : 1;
+      const unsigned shift = 2 * static_cast<unsigned>(child);
+      char& two = bytes[place[level + 1] + shift / 8];
+      two = static_cast<char>(static_cast<unsigned char>(two) | kind << shift % 8);
+    }
+    if (leaf) return;
+    place[level] = bytes.size();
+    bytes.append(2, '\0');
+  });
+  if (tree.size() == 1) bytes.append(2, '\0');  // all space is one leaf
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+}  // namespace facula
