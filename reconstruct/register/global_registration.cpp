@@ -100,12 +100,6 @@ std::optional<JudgedPose> refined(const JudgedPose& rough,
   }
 }
 
-Eigen::Vector3d middle_of(const PointCloud& cloud) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& p : cloud.points) sum += p.cast<double>();
-  return sum / static_cast<double>(cloud.size());
-}
-
 /// The poses refined, each place once, best first.
 std::vector<JudgedPose> refined_poses(const std::vector<JudgedPose>& rough,
                                       const GlobalFeatures& source,

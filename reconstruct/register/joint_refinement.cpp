@@ -37,15 +37,7 @@ struct Term {
 
 /// What a twist of the world does, as a twist of the target's frame about the pivot.
 Matrix6 into_target(const RigidTransform& target_from_world, const Eigen::Vector3d& pivot) {
-  const Eigen::Matrix3d r = target_from_world.rotation.toRotationMatrix();
-  const Eigen::Vector3d arm = target_from_world.translation - pivot;
-  Eigen::Matrix3d cross;
-  cross << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
-  Matrix6 into = Matrix6::Zero();
-  into.topLeftCorner<3, 3>() = r;
-  into.bottomRightCorner<3, 3>() = r;
-  into.topRightCorner<3, 3>() = cross * r;
-  return into;
+  return adjoint_of({target_from_world.rotation, target_from_world.translation - pivot});
 }
 
 Term term_of(const ScanNetwork& network, const PairOptions& how, Link& link) {

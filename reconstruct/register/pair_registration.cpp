@@ -44,12 +44,6 @@ Step decided_step(const PairSystem& system) {
   return step;
 }
 
-/// A twist about `pivot` as a transform of the target frame.
-RigidTransform turn_about(const Eigen::Vector3d& pivot, const Vector6& twist) {
-  const RigidTransform from_pivot{Eigen::Quaterniond::Identity(), pivot};
-  return from_pivot * exp_se3(twist) * from_pivot.inverse();
-}
-
 double median_distance(const std::vector<PointPair>& pairs) {
   std::vector<double> distances;
   distances.reserve(pairs.size());

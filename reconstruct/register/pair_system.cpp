@@ -58,14 +58,6 @@ void add(const PointPair& pair, const PairSystem& system, double weight, Sums& s
 
 }  // namespace
 
-Eigen::Matrix<double, 3, 6> pose_jacobian(const Eigen::Vector3d& arm) {
-  Eigen::Matrix<double, 3, 6> j;
-  j << 1, 0, 0, 0, arm.z(), -arm.y(),  //
-      0, 1, 0, -arm.z(), 0, arm.x(),   //
-      0, 0, 1, arm.y(), -arm.x(), 0;
-  return j;
-}
-
 PairSystem assemble(const std::vector<PointPair>& pairs, const PairOptions& options) {
   PairSystem system;
   system.scale = robust_scale(pairs);

@@ -3,15 +3,13 @@
 
 #include <facula/reconstruct/register/point_pairs.hpp>
 #include <facula/reconstruct/register/robust_weight.hpp>
+#include <facula/reconstruct/register/twist.hpp>
 
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace facula {
-
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// The normal equations of all pairs, for a twist about `pivot` in target coordinates.
 struct PairSystem {
@@ -26,9 +24,6 @@ struct PairSystem {
   /// independent, so that the noise of normals does not pass for shape.
   Matrix6 shape = Matrix6::Zero();
 };
-
-/// Motion of a point at `arm` from the pivot by a twist about the pivot.
-Eigen::Matrix<double, 3, 6> pose_jacobian(const Eigen::Vector3d& arm);
 
 PairSystem assemble(const std::vector<PointPair>& pairs, const PairOptions& options);
 

@@ -2,6 +2,7 @@
 #include <facula/acquire/core/median.hpp>
 #include <facula/acquire/core/random.hpp>
 #include <facula/reconstruct/register/pose_candidates.hpp>
+#include <facula/reconstruct/register/twist.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,6 @@
 
 namespace facula {
 namespace {
-
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr float kMeetVoxels = 1.0F;  // a point this near, along the normal, lies on the other
 constexpr float kMinCosine = 0.8F;   // of the angle between two normals that agree
@@ -113,9 +111,7 @@ std::vector<PoseCandidate> distinct_best(std::vector<PoseCandidate> candidates,
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
     return a.score > b.score;
   });
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& p : source.cloud.points) middle += p.cast<double>();
-  middle /= static_cast<double>(source.cloud.size());
+  const Eigen::Vector3d middle = middle_of(source.cloud);
   std::vector<PoseCandidate> best;
   for (const PoseCandidate& candidate : candidates) {
     if (best.size() >= most) break;
@@ -159,8 +155,7 @@ RigidTransform settle(const GlobalFeatures& source,
     h.diagonal() *= 1 + kSettleDamping;
     const Vector6 twist = -h.selfadjointView<Eigen::Lower>().ldlt().solve(g);
     if (!twist.allFinite()) return pose;
-    const RigidTransform about{Eigen::Quaterniond::Identity(), pivot};
-    pose = about * exp_se3(twist) * about.inverse() * pose;
+    pose = turn_about(pivot, twist) * pose;
     if (twist.head<3>().norm() < 1e-3 * target.voxel && twist.tail<3>().norm() < 1e-4) break;
   }
   pose.rotation.normalize();

@@ -60,12 +60,8 @@ Sandwich sandwich(const std::vector<PointPair>& pairs,
 
 /// Turns a twist (m, rad * radius) about the pivot into one (m, rad) about the frame's origin.
 Matrix6 to_origin(const PairSystem& system) {
-  const Eigen::Vector3d& c = system.pivot;
-  Eigen::Matrix3d cross;
-  cross << 0, -c.z(), c.y(), c.z(), 0, -c.x(), -c.y(), c.x(), 0;
-  Matrix6 map = Matrix6::Identity();
-  map.topRightCorner<3, 3>() = cross / system.radius;
-  map.bottomRightCorner<3, 3>() /= system.radius;
+  Matrix6 map = about(-system.pivot);
+  map.rightCols<3>() /= system.radius;
   return map;
 }
 

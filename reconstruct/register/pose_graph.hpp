@@ -35,7 +35,6 @@ struct EdgeResidual {
   double translation = 0;  ///< [m]
   double rotation = 0;     ///< [rad]
   double chi2 = 0;         ///< squared residual by the edge's information [1]
-  double weight = 1;       ///< Geman and McClure's at the end, 0 = given up [0..1]
   double redundancy = 0;   ///< share of the edge that the others check; 0 = none can [0..1]
   bool outlier = false;
 };

@@ -2,6 +2,7 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/reconstruct/register/pose_graph.hpp>
 #include <facula/reconstruct/register/pose_graph_residual.hpp>
+#include <facula/reconstruct/register/twist.hpp>
 
 #include <algorithm>
 #include <array>
@@ -15,7 +16,6 @@
 namespace facula {
 namespace {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Poses = std::vector<RigidTransform>;
 
 /// An edge whose residual is whitened: root^T root = information.
@@ -36,7 +36,7 @@ WhiteEdge whitened(const PoseEdge& edge, std::size_t number) {
           names(),
           " holds numbers that are not finite; leave it out");
   // Rotations and translations differ in unit: compare pure numbers.
-  Eigen::Matrix<double, 6, 1> scale;
+  Vector6 scale;
   for (int k = 0; k < 6; ++k) scale[k] = std::sqrt(std::max(information(k, k), 1e-300));
   const Matrix6 unit =
       scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal();
@@ -105,7 +105,7 @@ class Graph {
   double chi2(std::size_t e, const Poses& poses) const {
     return (white_[e].root * twist(e, poses)).squaredNorm();
   }
-  Eigen::Matrix<double, 6, 1> twist(std::size_t e, const Poses& poses) const {
+  Vector6 twist(std::size_t e, const Poses& poses) const {
     const PoseEdge& edge = edges_[e];
     return log_se3(poses[edge.to].inverse() * poses[edge.from] * edge.to_from_from.inverse());
   }
@@ -269,10 +269,7 @@ void settle(const Graph& graph, double bound, std::vector<double>& weights, Pose
   }
 }
 
-void describe(const Graph& graph,
-              const std::vector<double>& weights,
-              const PoseGraphOptions& options,
-              PoseGraphResult& result) {
+void describe(const Graph& graph, const std::vector<double>& weights, PoseGraphResult& result) {
   int rows = 0;
   for (std::size_t e = 0; e < weights.size(); ++e) {
     const auto twist = graph.twist(e, result.world_from_scan);
@@ -281,9 +278,7 @@ void describe(const Graph& graph,
     residual.rotation = twist.tail<3>().norm();
     residual.chi2 = graph.chi2(e, result.world_from_scan);
     residual.outlier = weights[e] == 0;
-    residual.weight = 0;
     if (residual.outlier) continue;
-    residual.weight = options.robust ? kernel(residual.chi2, options.outlier_chi2, 1) : 1;
     result.chi2 += residual.chi2;
     rows += graph.rank(e);
   }
@@ -340,7 +335,7 @@ PoseGraphResult solve_pose_graph(std::size_t scans,
   for (std::size_t i = 0; i < scans; ++i) {
     result.connected.push_back(result.component[i] == result.component[options.anchor]);
   }
-  describe(graph, weights, options, result);
+  describe(graph, weights, result);
   graph.find_covariance(weights, result);
   return result;
 }

@@ -98,19 +98,19 @@ GlobalResult verdict_on(const std::vector<JudgedPose>& refined,
   const JudgedPose& best = fitting.front();
   result.pair = best.pair;
   result.score = best.score;
-  PoseScore score_of_rival;
+  double next_overlap = 0;
   for (std::size_t i = 1; i < fitting.size(); ++i) {
     if (is_rival(fitting[i].score, best.score)) {
-      if (result.rivals.empty()) score_of_rival = fitting[i].score;
+      if (result.rivals.empty()) next_overlap = fitting[i].score.overlap;
       result.rivals.push_back(fitting[i].pair);
     }
   }
   if (!result.rivals.empty()) {
     result.verdict = Verdict::kAmbiguous;
-    result.reason =
-        std::to_string(result.rivals.size() + 1) +
-        " poses explain the scans about equally well: at the best " + percent(best.score.overlap) +
-        " of the smaller scan lies on the other, at the next " + percent(fitting[1].score.overlap);
+    result.reason = std::to_string(result.rivals.size() + 1) +
+                    " poses explain the scans about equally well: at the best " +
+                    percent(best.score.overlap) +
+                    " of the smaller scan lies on the other, at the next " + percent(next_overlap);
   } else if (!best.pair.undecided.empty()) {
     result.verdict = Verdict::kAmbiguous;
     result.reason = "where the scans overlap one " + best.pair.undecided.front().motion +

@@ -31,10 +31,7 @@ std::vector<ScanEdge> edges_of(const std::vector<Pair>& pairs, int num_threads, 
 
 /// Where the source's middle goes, by which two poses of it are compared.
 double moved_by(const ScanPyramid& source, const RigidTransform& a, const RigidTransform& b) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const auto& points = source.levels.back().cloud.points;
-  for (const Eigen::Vector3f& p : points) sum += p.cast<double>();
-  const Eigen::Vector3d middle = sum / static_cast<double>(points.size());
+  const Eigen::Vector3d middle = middle_of(source.levels.back().cloud);
   return (a * middle - b * middle).norm() + rotation_angle(a.inverse() * b) * source.diameter / 4;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/median.hpp>
 #include <facula/reconstruct/register/scan_network.hpp>
+#include <facula/reconstruct/register/twist.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,21 +13,16 @@
 namespace facula {
 namespace {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
 constexpr double kLeastOverlap = 0.05;  // counted as this much at least [1]
 
 /// The edge's information after the error of whole scans was added to its pose, about the middle of
 /// what both share: (I^-1 + F)^-1 = G - G (I + G)^-1 G with G = F^-1, which holds for any rank.
 Matrix6 softened(const ScanEdge& edge, double scan_sigma) {
-  const Eigen::Vector3d& c = edge.middle;
-  // A twist about the origin moves the middle by t + w x c.
-  Matrix6 to_middle = Matrix6::Identity();
-  to_middle.topRightCorner<3, 3>() << 0, c.z(), -c.y(), -c.z(), 0, c.x(), c.y(), -c.x(), 0;
+  const Matrix6 to_middle = about(edge.middle);
   // What is bent averages out over a surface: the less both share, the more of it is seen.
   const double sigma = scan_sigma / std::clamp(edge.overlap, kLeastOverlap, 1.0);
   const double shift = 1 / (sigma * sigma);
-  Eigen::Matrix<double, 6, 1> weight;
+  Vector6 weight;
   weight << Eigen::Vector3d::Constant(shift),
       Eigen::Vector3d::Constant(shift * edge.radius * edge.radius);
   const Matrix6 g = to_middle.transpose() * weight.asDiagonal() * to_middle;
@@ -119,29 +115,6 @@ void note_residuals(const PoseGraphResult& graph,
     edge.verdict = EdgeVerdict::kOutlier;
     edge.reason = "it contradicts the other pairs";
   }
-}
-
-Eigen::Vector3d middle_of(const ScanPyramid& scan) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const auto& points = scan.levels.back().cloud.points;
-  for (const Eigen::Vector3f& p : points) sum += p.cast<double>();
-  return sum / static_cast<double>(points.size());
-}
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
-/// Carries a twist of one frame into another.
-Matrix6 adjoint_of(const RigidTransform& pose) {
-  const Eigen::Matrix3d r = pose.rotation.toRotationMatrix();
-  Matrix6 adjoint = Matrix6::Zero();
-  adjoint.topLeftCorner<3, 3>() = r;
-  adjoint.bottomRightCorner<3, 3>() = r;
-  adjoint.topRightCorner<3, 3>() = cross_matrix(pose.translation) * r;
-  return adjoint;
 }
 
 Matrix6 block(const ScanNetwork& network, std::size_t i, std::size_t k) {
@@ -266,9 +239,8 @@ std::size_t central_scan(const ReadyScans& scans, const ScanNetwork& network) {
     double sum = 0;
     for (const std::size_t i : scans.order) {
       if (!network.world_from_scan[i]) continue;
-      const Eigen::Vector3d x = *network.world_from_scan[i] * middle_of(*scans.pyramids[i]);
-      Eigen::Matrix<double, 3, 6> moves;
-      moves << Eigen::Matrix3d::Identity(), -cross_matrix(x);
+      const PointCloud& coarse = scans.pyramids[i]->levels.back().cloud;
+      const auto moves = pose_jacobian(*network.world_from_scan[i] * middle_of(coarse));
       sum += (moves * relative_covariance(network, i, a) * moves.transpose()).trace();
     }
     if (sum < least) {
@@ -304,15 +276,13 @@ double fitting_scan_sigma(const ScanProject& project,
                           const std::vector<ScanEdge>& edges,
                           const RegisterScansOptions& options,
                           const std::pair<double, double>& least_most) {
-  RegisterScansOptions plain = options;
-  plain.graph.robust = false;
   const auto [least, most] = least_most;
   double low = least;
   double high = most;
   for (int step = 0; step < 12; ++step) {
     const double sigma = step == 0 ? least : std::sqrt(low * high);
     std::vector<ScanEdge> tried = edges;
-    join_scans(project, tried, plain, sigma);
+    join_scans(project, tried, options, sigma);
     if (median_excess(tried) > 1) {
       low = sigma;
     } else if (step == 0) {

@@ -41,9 +41,7 @@ PointCloud finite_points(const PosedCloud& scan, int num_threads) {
 
 /// Throws when the points lie on one line (or in one spot), which shows no surface.
 void require_surface(const PointCloud& cloud, const std::string& name) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& p : cloud.points) sum += p.cast<double>();
-  const Eigen::Vector3d centroid = sum / static_cast<double>(cloud.size());
+  const Eigen::Vector3d centroid = middle_of(cloud);
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3f& p : cloud.points) {
     const Eigen::Vector3d d = p.cast<double>() - centroid;
@@ -139,6 +137,12 @@ ScanPyramid build_pyramid(const PosedCloud& scan, const PyramidOptions& options)
     pyramid.levels.push_back({voxel, cloud, std::move(tree), merged});
   }
   return pyramid;
+}
+
+Eigen::Vector3d middle_of(const PointCloud& cloud) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& p : cloud.points) sum += p.cast<double>();
+  return sum / static_cast<double>(cloud.size());
 }
 
 const PyramidLevel& coarsest_level(const ScanPyramid& scan, std::size_t least_points) {

@@ -39,6 +39,9 @@ struct ScanPyramid {
 /// when fewer than 12 finite points or no surface are left.
 ScanPyramid build_pyramid(const PosedCloud& scan, const PyramidOptions& options = {});
 
+/// The mean of a cloud's points, which must be finite; at least one [m].
+Eigen::Vector3d middle_of(const PointCloud& cloud);
+
 /// The coarsest level with at least so many points, or the finest. Throws Error when there is none.
 const PyramidLevel& coarsest_level(const ScanPyramid& scan, std::size_t least_points);
 

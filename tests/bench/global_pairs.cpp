@@ -63,9 +63,7 @@ void run_pair(const PosedCloud& s,
   const GlobalResult result = register_without_guess(source, target);
   const double took = seconds() - start;
   // The difference at the middle of the scan: at the frame's origin a turn would count as a shift.
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& p : source.cloud.points) middle += p.cast<double>();
-  middle /= static_cast<double>(source.cloud.size());
+  const Eigen::Vector3d middle = middle_of(source.cloud);
   const RigidTransform& found = result.pair.target_from_source;
   const double degrees = found.rotation.angularDistance(truth.rotation) / kDegree;
   const double millimetres = 1000 * (found * middle - truth * middle).norm();
