@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/reconstruct/filter/gate_filters.hpp>
+#include <facula/reconstruct/filter/line_of_sight.hpp>
 
 #include <cmath>
 #include <numbers>
 
 namespace facula {
-namespace {
-
-Eigen::Vector3f towards_sensor(const PointCloud& cloud, std::size_t i) {
-  const Eigen::Vector3f origin =
-      cloud.sensor_origin.empty() ? Eigen::Vector3f::Zero() : cloud.sensor_origin[i];
-  return origin - cloud.points[i];
-}
-
-}  // namespace
 
 void RangeGate::check() const {
   require(nearest >= 0 && std::isfinite(nearest),

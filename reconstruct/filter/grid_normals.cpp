@@ -3,6 +3,7 @@
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/reconstruct/filter/grid_links.hpp>
 #include <facula/reconstruct/filter/grid_normals.hpp>
+#include <facula/reconstruct/filter/line_of_sight.hpp>
 #include <facula/reconstruct/filter/plane_of_points.hpp>
 
 #include <algorithm>
@@ -114,9 +115,7 @@ std::vector<Eigen::Vector3f> grid_normals(const PointCloud& cloud,
     const auto p = static_cast<std::size_t>(grid.point[grid.index(row, col)]);
     PlaneOfPoints plane(cloud.points[p]);
     walk.visit(row, col, [&](std::int32_t q) { plane.add(cloud.points[std::size_t(q)]); });
-    const Eigen::Vector3f origin =
-        cloud.sensor_origin.empty() ? Eigen::Vector3f::Zero() : cloud.sensor_origin[p];
-    normals[p] = plane.normal_towards(origin - cloud.points[p]);
+    normals[p] = plane.normal_towards(towards_sensor(cloud, p));
   };
   const auto estimate = [&](std::size_t first, std::size_t last) {
     for (int col = int(first); col < int(last); ++col) {

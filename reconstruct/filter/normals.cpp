@@ -2,6 +2,7 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/reconstruct/filter/cloud_filters.hpp>
+#include <facula/reconstruct/filter/line_of_sight.hpp>
 #include <facula/reconstruct/filter/nearest_neighbours.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
 #include <facula/reconstruct/filter/plane_of_points.hpp>
@@ -11,12 +12,6 @@
 
 namespace facula {
 namespace {
-
-Eigen::Vector3f towards_sensor(const PointCloud& cloud, std::size_t i) {
-  const Eigen::Vector3f origin =
-      cloud.sensor_origin.empty() ? Eigen::Vector3f::Zero() : cloud.sensor_origin[i];
-  return origin - cloud.points[i];
-}
 
 /// The normal of the plane through a point's neighbours, themselves points of `surface`; zero for
 /// fewer than three.
