@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/apps/cli/output_path.hpp>
 #include <facula/apps/commands/csv_figures.hpp>
 #include <facula/apps/commands/flatness_figures.hpp>
@@ -7,7 +7,6 @@
 #include <facula/apps/commands/plane_search.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
 
-#include <algorithm>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -77,24 +76,19 @@ void add_notes(const FlatnessArguments& a,
   }
 }
 
-bool knows_noise(const PointCloud& cloud, double other_sigma) {
-  if (other_sigma > 0) return true;
-  return !cloud.sigma.empty() &&
-         std::all_of(cloud.sigma.begin(), cloud.sigma.end(), [](float s) { return s > 0; });
-}
-
 std::vector<MeasuredFlatness> measured(const FlatnessArguments& a,
                                        const Surfaces& surfaces,
                                        int num_threads) {
   FlatnessUncertaintyOptions noise = a.noise;
   noise.seed = static_cast<unsigned>(a.search.seed % std::numeric_limits<unsigned>::max());
   noise.num_threads = num_threads;
+  const bool has_noise = noise.sigma > 0 || knows_sigma(surfaces.cloud);
   std::vector<MeasuredFlatness> result;
   for (const auto& indices : surfaces.indices) {
     MeasuredFlatness& surface = result.emplace_back();
     surface.flatness =
         measure_flatness(surfaces.cloud, indices, FlatnessOptions{.num_threads = num_threads});
-    if (!knows_noise(surfaces.cloud, noise.sigma)) continue;
+    if (!has_noise) continue;
     surface.uncertainty = flatness_uncertainty(surfaces.cloud, indices, surface.flatness, noise);
   }
   return result;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/reconstruct/filter/edge_deviation.hpp>
 
 #include <algorithm>
@@ -105,6 +106,7 @@ class EdgeJudge {
   /// Compares a cell with the surface behind it, seen from the edge; `skip` cells nearest to it are
   /// left out, for they may be mixed too.
   std::optional<Deviation> deviation_of(int row, int col, const Step& outward, int skip) const {
+    if (!is_known_sigma(noise_[scan_.index(row, col)])) return std::nullopt;
     const bool columns = outward.cols != 0;
     const int depth = columns ? 3 : 9;  // cells away from the edge
     const int width = columns ? 4 : 1;  // cells to either side
@@ -121,6 +123,7 @@ class EdgeJudge {
     int layers = 0;
     const auto add = [&](int r, int c) {
       const std::size_t cell = scan_.index(r, c);
+      if (!is_known_sigma(noise_[cell])) return;
       const Eigen::Vector3d from_sensor = scan_.point[cell].cast<double>() - origin;
       const double range = from_sensor.norm();
       const Eigen::Vector3d x = basis * from_sensor / range;

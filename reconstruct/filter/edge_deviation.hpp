@@ -22,7 +22,8 @@ struct EdgeDeviationOptions {
 /// surface is continued to the cell from the cells on the side away from the edge, as a plane; a
 /// cell is named when the mean deviation of the cells around it along the edge exceeds
 /// max_deviation of its standard deviations, taken from sigma and from how well the plane fits, and
-/// its sigma shows that light was lost. One entry per cell, 1 where it deviates.
+/// its sigma shows that light was lost. Cells whose sigma is not known (is_known_sigma) neither are
+/// judged nor judge others. One entry per cell, 1 where it deviates.
 std::vector<char> edge_deviants(const PolarScan& scan, const EdgeDeviationOptions& options = {});
 
 }  // namespace facula

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/acquire/core/median.hpp>
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/reconstruct/filter/grid_links.hpp>
+#include <facula/reconstruct/filter/line_of_sight.hpp>
 
 #include <cmath>
 
@@ -11,17 +13,14 @@ namespace {
 struct LinkJudge {
   const PointCloud& cloud;
   double tangent;  ///< of the steepest incidence that joins
+  bool has_noise;  ///< the points know their sigma
 
   bool joins(std::size_t a, std::size_t b) const {
     const Eigen::Vector3f step = cloud.points[b] - cloud.points[a];
-    const Eigen::Vector3f origin =
-        cloud.sensor_origin.empty() ? Eigen::Vector3f::Zero() : cloud.sensor_origin[a];
-    const Eigen::Vector3f ray = (cloud.points[a] - origin).stableNormalized();
-    const double along = step.dot(ray);
+    const double along = step.dot(towards_sensor(cloud, a).stableNormalized());
     const double across = std::sqrt(std::max(0.0, double(step.squaredNorm()) - along * along));
     if (std::abs(along) <= tangent * across) return true;
-    if (cloud.sigma.empty()) return false;
-    return std::abs(along) <= 4 * std::hypot(cloud.sigma[a], cloud.sigma[b]);
+    return has_noise && std::abs(along) <= 4 * std::hypot(cloud.sigma[a], cloud.sigma[b]);
   }
 
   float distance(std::size_t a, std::size_t b) const {
@@ -41,7 +40,7 @@ GridLinks grid_links(const PointCloud& cloud,
                      int num_threads) {
   GridLinks links;
   links.joined.assign(grid.point.size(), 0);
-  const LinkJudge judge{cloud, std::tan(max_incidence)};
+  const LinkJudge judge{cloud, std::tan(max_incidence), knows_sigma(cloud)};
   const auto point_at = [&](int row, int col) {
     const bool inside = row < grid.rows && col < grid.cols;
     return inside ? grid.point[grid.index(row, col)] : ScanGrid::kNone;

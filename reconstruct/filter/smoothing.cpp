@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/acquire/core/parallel.hpp>
+#include <facula/reconstruct/filter/line_of_sight.hpp>
 #include <facula/reconstruct/filter/nearest_neighbours.hpp>
 #include <facula/reconstruct/filter/point_spacing.hpp>
 #include <facula/reconstruct/filter/smoothing.hpp>
@@ -43,7 +45,10 @@ struct Landing {
 class Smoother {
  public:
   Smoother(const PointCloud& cloud, const SmoothingOptions& options)
-      : cloud_(cloud), options_(options), tree_(cloud.points, options.num_threads) {}
+      : cloud_(cloud),
+        options_(options),
+        has_sigma_(options.default_sigma > 0 || knows_sigma(cloud)),
+        tree_(cloud.points, options.num_threads) {}
 
   const NearestNeighbours& tree() const { return tree_; }
 
@@ -83,13 +88,11 @@ class Smoother {
     const double freedom = weights - Square(solver.solve(spread)).trace();
     if (!(freedom > 0)) return std::nullopt;
     const double misfit = std::max(0.0, squared - right.dot(surface)) / freedom;
-    if (has_sigma() && misfit > options_.max_misfit) return std::nullopt;
+    if (has_sigma_ && misfit > options_.max_misfit) return std::nullopt;
     // Without sigmas the scatter about the surface tells the noise.
-    if (!has_sigma()) landing.sigma *= std::sqrt(misfit);
+    if (!has_sigma_) landing.sigma *= std::sqrt(misfit);
     return landing;
   }
-
-  bool has_sigma() const { return !cloud_.sigma.empty() || options_.default_sigma > 0; }
 
   /// The share of a sigma along the ray that lies along the normal.
   double cosine(std::size_t i, const Eigen::Vector3d& normal) const {
@@ -104,10 +107,9 @@ class Smoother {
   }
 
   double normal_sigma(std::size_t i, const Eigen::Vector3d& normal) const {
-    if (!has_sigma()) return 1;
-    double sigma = cloud_.sigma.empty() ? options_.default_sigma : double(cloud_.sigma[i]);
-    if (!(sigma > 0) || !std::isfinite(sigma)) sigma = options_.default_sigma;
-    return sigma > 0 ? sigma * cosine(i, normal) : options_.radius;
+    if (!has_sigma_) return 1;
+    const bool own = !cloud_.sigma.empty() && is_known_sigma(cloud_.sigma[i]);
+    return (own ? double(cloud_.sigma[i]) : options_.default_sigma) * cosine(i, normal);
   }
 
   /// Columns: normal, two directions in the plane of the neighbours. Nothing where they lie along a
@@ -132,15 +134,14 @@ class Smoother {
 
   const PointCloud& cloud_;
   const SmoothingOptions& options_;
+  bool has_sigma_;  // of every point, its own or the default
   NearestNeighbours tree_;
 };
 
 /// Turned to the side that the point was seen from.
 Eigen::Vector3f facing(const PointCloud& cloud, std::size_t i, const Eigen::Vector3d& normal) {
   const Eigen::Vector3f n = normal.cast<float>();
-  const Eigen::Vector3f origin =
-      cloud.sensor_origin.empty() ? Eigen::Vector3f::Zero() : cloud.sensor_origin[i];
-  return n.dot(origin - cloud.points[i]) < 0 ? Eigen::Vector3f(-n) : n;
+  return n.dot(towards_sensor(cloud, i)) < 0 ? Eigen::Vector3f(-n) : n;
 }
 
 /// A radius that takes in thousands of points smooths nothing local and takes forever.
@@ -195,7 +196,9 @@ SmoothedCloud smooth(const PointCloud& cloud, const SmoothingOptions& options) {
       out.normals[i] = facing(cloud, i, landing->normal);
       out.sigma[i] = float(landing->sigma / smoother.cosine(i, landing->normal));
       move[i] = float(std::abs(landing->height));
-      if (!cloud.sigma.empty() && cloud.sigma[i] > 0) ratio[i] = out.sigma[i] / cloud.sigma[i];
+      if (!cloud.sigma.empty() && is_known_sigma(cloud.sigma[i])) {
+        ratio[i] = out.sigma[i] / cloud.sigma[i];
+      }
     }
   };
   parallel_for(cloud.size(), land, {.num_threads = options.num_threads, .chunk = 256});

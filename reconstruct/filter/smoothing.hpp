@@ -8,11 +8,13 @@
 namespace facula {
 
 struct SmoothingOptions {
-  double radius = 0;         ///< half width (1 sigma) of the Gaussian weights [m], above 0
-  int order = 2;             ///< of the local surface: 1 = plane, 2 = paraboloid [1]
-  double default_sigma = 0;  ///< of points without sigma [m]; 0 = from how well the surfaces fit
-  double max_misfit = 2;     ///< reduced chi-square of a surface that is moved onto [1]
-  int num_threads = 0;       ///< 0 = all cores [1]
+  double radius = 0;  ///< half width (1 sigma) of the Gaussian weights [m], above 0
+  int order = 2;      ///< of the local surface: 1 = plane, 2 = paraboloid [1]
+  /// Of points that do not know their sigma [m]; 0 = where any does not, from how well the surfaces
+  /// fit, and all points count alike.
+  double default_sigma = 0;
+  double max_misfit = 2;  ///< reduced chi-square of a surface that is moved onto [1]
+  int num_threads = 0;    ///< 0 = all cores [1]
 
   void check() const;
 };

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/reconstruct/filter/cloud_filters.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 namespace facula {
 namespace {
@@ -45,6 +47,7 @@ std::vector<Keyed> keyed_points(const PointCloud& cloud, double voxel) {
 
 /// Weighted sums over the points of one voxel.
 struct VoxelSum {
+  bool by_sigma = false;
   double weight = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -52,8 +55,7 @@ struct VoxelSum {
   Eigen::Vector3d color = Eigen::Vector3d::Zero();
   double intensity = 0;
 
-  void add(const PointCloud& cloud, std::size_t i) {
-    const double w = weight_of(cloud, i);
+  void add(const PointCloud& cloud, std::size_t i, double w) {
     weight += w;
     point += w * cloud.points[i].cast<double>();
     if (!cloud.normals.empty()) normal += w * cloud.normals[i].cast<double>();
@@ -63,12 +65,6 @@ struct VoxelSum {
       color += w * Eigen::Vector3d(c[0], c[1], c[2]);
     }
     if (!cloud.intensity.empty()) intensity += w * cloud.intensity[i];
-  }
-
-  static double weight_of(const PointCloud& cloud, std::size_t i) {
-    if (cloud.sigma.empty()) return 1;
-    const double sigma = cloud.sigma[i];
-    return sigma > 0 && std::isfinite(sigma) ? 1 / (sigma * sigma) : 1;
   }
 
   void store(PointCloud& out, const PointCloud& like) const {
@@ -85,25 +81,47 @@ struct VoxelSum {
       out.colors.push_back({level(c.x()), level(c.y()), level(c.z())});
     }
     if (!like.intensity.empty()) out.intensity.push_back(static_cast<float>(intensity / weight));
-    // The standard deviation of a mean weighted by 1/sigma^2.
-    if (!like.sigma.empty()) out.sigma.push_back(static_cast<float>(1 / std::sqrt(weight)));
+    // The standard deviation of a mean weighted by 1/sigma^2; 0, unknown, of any other.
+    const double sigma = by_sigma ? 1 / std::sqrt(weight) : 0;
+    if (!like.sigma.empty()) out.sigma.push_back(static_cast<float>(sigma));
   }
 };
 
+/// Points that know their sigma outdo those of their voxel that do not; where none does, all count
+/// alike.
+VoxelSum sum_of(const PointCloud& cloud, std::span<const Keyed> voxel) {
+  const auto known = [&cloud](const Keyed& p) {
+    return !cloud.sigma.empty() && is_known_sigma(cloud.sigma[p.index]);
+  };
+  VoxelSum sum;
+  sum.by_sigma = std::any_of(voxel.begin(), voxel.end(), known);
+  for (const Keyed& p : voxel) {
+    if (!sum.by_sigma) {
+      sum.add(cloud, p.index, 1);
+    } else if (known(p)) {
+      sum.add(cloud, p.index, 1 / std::pow(double(cloud.sigma[p.index]), 2));
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
-PointCloud thin_by_voxel(const PointCloud& cloud, double voxel) {
+PointCloud thin_by_voxel(const PointCloud& cloud,
+                         double voxel,
+                         std::vector<std::uint32_t>* voxel_of) {
   cloud.check();
   require(voxel > 0 && std::isfinite(voxel), "voxel is ", voxel, " m; give a length above 0");
   const std::vector<Keyed> keyed = keyed_points(cloud, voxel);
+  if (voxel_of != nullptr) voxel_of->assign(cloud.size(), kNoVoxel);
   PointCloud thinned;
   for (std::size_t begin = 0; begin < keyed.size();) {
-    VoxelSum sum;
     std::size_t end = begin;
     for (; end < keyed.size() && keyed[end].key == keyed[begin].key; ++end) {
-      sum.add(cloud, keyed[end].index);
+      if (voxel_of == nullptr) continue;
+      (*voxel_of)[keyed[end].index] = static_cast<std::uint32_t>(thinned.size());
     }
-    sum.store(thinned, cloud);
+    sum_of(cloud, std::span(keyed).subspan(begin, end - begin)).store(thinned, cloud);
     begin = end;
   }
   return thinned;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/acquire/core/random.hpp>
 #include <facula/reconstruct/measure/flatness_uncertainty.hpp>
@@ -41,7 +42,7 @@ std::vector<Site> sites_of(const PointCloud& cloud,
   for (const std::size_t i : indices) {
     if (!cloud.points[i].allFinite()) continue;
     const Eigen::Vector3d d = cloud.points[i].cast<double>() - flatness.centroid;
-    const bool own = !cloud.sigma.empty() && std::isfinite(cloud.sigma[i]) && cloud.sigma[i] > 0;
+    const bool own = !cloud.sigma.empty() && is_known_sigma(cloud.sigma[i]);
     require(own || other_sigma > 0,
             "expected the noise of every point, got none for number ",
             i,

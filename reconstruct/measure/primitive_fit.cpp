@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/reconstruct/measure/primitive_fit.hpp>
 
 #include <algorithm>
@@ -37,7 +38,7 @@ std::vector<Sample> samples_of(const PointCloud& cloud, const std::vector<std::s
       sample.ray = (sample.x - cloud.sensor_origin[i].cast<double>()).normalized();
       if (!sample.ray.allFinite()) sample.ray.setZero();
     }
-    all_have_sigma = all_have_sigma && std::isfinite(cloud.sigma[i]) && cloud.sigma[i] > 0;
+    all_have_sigma = all_have_sigma && is_known_sigma(cloud.sigma[i]);
     if (all_have_sigma) sample.sigma = cloud.sigma[i];
     samples.push_back(sample);
   }

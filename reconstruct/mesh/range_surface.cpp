@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
 #include <facula/reconstruct/mesh/range_surface.hpp>
 
@@ -50,7 +51,7 @@ float sigma_weight(const PointCloud& cloud, std::size_t point) {
   constexpr float kLeast = 1e-6F;  // a micrometre: no point may outweigh all others
   if (cloud.sigma.empty()) return 1;
   const float sigma = cloud.sigma[point];
-  if (!(sigma > 0) || !std::isfinite(sigma)) return 1;
+  if (!is_known_sigma(sigma)) return 1;
   const float ratio = kUnit / std::max(sigma, kLeast);
   return ratio * ratio;
 }

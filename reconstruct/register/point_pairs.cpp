@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/reconstruct/register/point_pairs.hpp>
 
@@ -49,14 +50,14 @@ PairFinder::PairFinder(const PyramidLevel& source,
       source_along_(variance_along(source)),
       target_along_(variance_along(target)),
       found_(source.cloud.size()) {
-  const bool use_sigma = !source.cloud.sigma.empty() && !target.cloud.sigma.empty();
+  const bool use_sigma = knows_sigma(source.cloud) && knows_sigma(target.cloud);
   source_quality_ = qualities(source, use_sigma);
   target_quality_ = qualities(target, use_sigma);
 }
 
-/// A stated sigma lies along the ray; only its part along the normal moves the surface. Without
-/// sigmas all points vary alike, and those seen aslant are trusted less (as by Turk and Levoy
-/// 1994): their errors are more often gross than wide.
+/// A stated sigma lies along the ray; only its part along the normal moves the surface. Unless both
+/// scans know theirs, all points vary alike, and those seen aslant are trusted less (as by Turk and
+/// Levoy 1994): their errors are more often gross than wide.
 std::vector<PairFinder::PointQuality> PairFinder::qualities(const PyramidLevel& level,
                                                             bool use_sigma) {
   const double along = variance_along(level);

@@ -196,6 +196,21 @@ TEST(Smooth, TakesTheNoiseFromTheScatterWithoutSigmas) {
   EXPECT_LT(chi2, 1.3);
 }
 
+TEST(Smooth, TakesUnknownSigmasForNone) {
+  PointCloud cloud = noisy_bowl(0, 7);
+  PointCloud bare = cloud;
+  bare.sigma.clear();
+  cloud.sigma[17] = 0;
+  const SmoothedCloud some = smooth(cloud, {.radius = 0.06});
+  cloud.sigma.assign(cloud.size(), 0);
+  const SmoothedCloud zeros = smooth(cloud, {.radius = 0.06});
+  const SmoothedCloud none = smooth(bare, {.radius = 0.06});
+  EXPECT_GT(none.moved, cloud.size() / 2);
+  EXPECT_EQ(zeros.cloud.points, none.cloud.points);
+  EXPECT_EQ(zeros.cloud.sigma, none.cloud.sigma);
+  EXPECT_EQ(some.cloud.points, none.cloud.points);
+}
+
 TEST(Smooth, LeavesLonelyAndUnknownPointsAlone) {
   PointCloud cloud = points_of({{0, 0, 0}, {5, 0, 0}, {NAN, 0, 0}});
   const SmoothedCloud after = smooth(cloud, {.radius = 0.1});

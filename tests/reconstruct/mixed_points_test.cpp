@@ -155,5 +155,16 @@ TEST(RemoveMixedPoints, RefusesOptionsOutOfRange) {
   EXPECT_EQ(remove_mixed_points(scan), 0U);
 }
 
+TEST(RemoveMixedPoints, AreNotSoughtBySigmasThatAreUnknown) {
+  // Without noise every deviation would exceed four sigmas of nothing.
+  PolarScan scan = two_walls(0);
+  for (std::size_t cell = 0; cell < scan.sigma.size(); cell += 2) scan.sigma[cell] = 0;
+  EXPECT_EQ(remove_mixed_points(scan), 0U);
+  scan = two_walls(0.0002);
+  scan.sigma.assign(scan.sigma.size(), 0);
+  const auto mixed = add_mixed(scan, {0.2, 0.45, 0.8});
+  EXPECT_EQ(remove_mixed_points(scan), mixed.size());
+}
+
 }  // namespace
 }  // namespace facula

@@ -97,6 +97,29 @@ TEST(RegisterPairRobustly, IsNotMisledByPointsThatOnlyTheSourceHas) {
   EXPECT_TRUE(is_near_pose(result.target_from_source, known_pose(), 0.05 * kDegree, 0.001));
 }
 
+TEST(RegisterPairRobustly, TakesASigmaOfZeroForUnknown) {
+  PosedCloud scan = seen_from(corner_scan(2, 4000, 0.001), known_pose());
+  PosedCloud fixed = corner_scan(1, 4000, 0.001);
+  const RigidTransform start = twist(0.05, -0.05, 0.05, 0.05, -0.05, 0.05) * known_pose();
+  const PairResult none = register_pair(build_pyramid(scan), build_pyramid(fixed), start);
+  EXPECT_TRUE(is_near_pose(none.target_from_source, known_pose(), 0.1 * kDegree, 0.002));
+  // Scans that know nothing are as scans that do not say so.
+  scan.cloud.sigma.assign(scan.cloud.size(), 0);
+  fixed.cloud.sigma.assign(fixed.cloud.size(), 0);
+  const PairResult zeros = register_pair(build_pyramid(scan), build_pyramid(fixed), start);
+  EXPECT_EQ(zeros.target_from_source.matrix(), none.target_from_source.matrix());
+  EXPECT_EQ(zeros.covariance, none.covariance);
+  // Nor may a few such points outweigh all others.
+  fixed.cloud.sigma.assign(fixed.cloud.size(), 0.001F);
+  scan.cloud.sigma.assign(scan.cloud.size(), 0.001F);
+  for (std::size_t i = 0; i < scan.cloud.size(); i += 7) {
+    scan.cloud.sigma[i] = 0;
+    scan.cloud.points[i] += Eigen::Vector3f(0.01F, 0.01F, 0.01F);
+  }
+  const PairResult some = register_pair(build_pyramid(scan), build_pyramid(fixed), start);
+  EXPECT_TRUE(is_near_pose(some.target_from_source, known_pose(), 0.1 * kDegree, 0.002));
+}
+
 TEST(RegisterPairRobustly, TrustsAPointWithASmallSigmaMore) {
   // A board seen twice: exactly, and 10 mm too near with a sigma that admits it.
   PosedCloud scan = corner_scan(2, 4000, 0);

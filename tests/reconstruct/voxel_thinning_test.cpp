@@ -99,5 +99,18 @@ TEST(ThinByVoxel, RefusesACloudTooWideForItsKeys) {
   EXPECT_NE(error_of([&] { thin_by_voxel(cloud, NAN); }), "");
 }
 
+TEST(ThinByVoxel, TakesASigmaOfZeroForUnknownAndNotForPerfect) {
+  PointCloud cloud;
+  cloud.points = {{0.1F, 0, 0}, {0.3F, 0, 0}, {0.8F, 0, 0}, {1.2F, 0, 0}, {1.4F, 0, 0}};
+  cloud.sigma = {0.001F, 0.001F, 0.0F, 0.0F, INFINITY};
+  const PointCloud thinned = thin_by_voxel(cloud, 1.0);
+  ASSERT_EQ(thinned.size(), 2U);
+  // Two points that know their sigma outdo the third; in the second voxel none does.
+  EXPECT_NEAR(thinned.points[0].x(), 0.2, 1e-6);
+  EXPECT_NEAR(thinned.sigma[0], 0.001 / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(thinned.points[1].x(), 1.3, 1e-6);
+  EXPECT_EQ(thinned.sigma[1], 0);
+}
+
 }  // namespace
 }  // namespace facula

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/acquire/core/point_cloud.hpp>
 #include <facula/tests/support/matchers.hpp>
 
+#include <limits>
 #include <numbers>
 
 namespace facula {
@@ -77,6 +79,25 @@ TEST(PointCloud, TakesTheValidCellsOfAScanColumnByColumn) {
   EXPECT_EQ(cloud.intensity[0], 0.25F);
   EXPECT_EQ(cloud.sigma[1], 2e-3F);
   EXPECT_EQ(cloud.sensor_origin[1], Eigen::Vector3f(2, 2, 2));
+}
+
+TEST(KnownSigma, IsNeitherZeroNorBelowNorInfinite) {
+  EXPECT_TRUE(is_known_sigma(1e-9));
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double sigma : {0.0, -0.001, infinity, -infinity, std::nan("")}) {
+    EXPECT_FALSE(is_known_sigma(sigma)) << sigma;
+  }
+}
+
+TEST(KnownSigma, IsAskedOfEveryFinitePoint) {
+  PointCloud cloud = three_points();
+  EXPECT_TRUE(knows_sigma(cloud));
+  cloud.sigma[1] = 0;
+  EXPECT_FALSE(knows_sigma(cloud));
+  cloud.points[1].x() = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(knows_sigma(cloud));
+  cloud.sigma.clear();
+  EXPECT_FALSE(knows_sigma(cloud));
 }
 
 }  // namespace
