@@ -9,6 +9,7 @@
 #include <facula/apps/commands/posed_scans.hpp>
 #include <facula/apps/report/deviation_map.hpp>
 #include <facula/apps/report/png.hpp>
+#include <facula/reconstruct/filter/distinct_points.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
 #include <facula/reconstruct/measure/principal_frame.hpp>
 #include <facula/reconstruct/mesh/mesh_exchange.hpp>
@@ -45,18 +46,6 @@ PointCloud points_of(const std::vector<std::filesystem::path>& paths) {
   PointCloud cloud = read_posed_scans(paths, false).project.fused();
   cloud.colors.clear();
   return cloud;
-}
-
-/// Points of one line or one spot have no side to be on.
-bool is_surface(const PointCloud& cloud) {
-  std::vector<Eigen::Vector3d> points;
-  for (const Eigen::Vector3f& p : cloud.points) {
-    if (p.allFinite()) points.push_back(p.cast<double>());
-  }
-  if (points.empty()) return false;
-  constexpr double kThin = 1e-12;  // squared breadth over squared length: rounding
-  const Eigen::Vector3d spread = principal_frame(points).mean_squares;
-  return spread(1) > kThin * spread(0);
 }
 
 void write_pictures(const CompareArguments& a, PointCloud cloud, const Deviations& deviations) {
@@ -110,10 +99,10 @@ Deviations deviations_from_file(const std::vector<Eigen::Vector3f>& points,
     return deviations_from_mesh(points, read_any_mesh(reference), options);
   }
   PointCloud cloud = read_posed_scans({reference}).project.fused();
+  // Twenty points in one place would be all the neighbours that a normal is estimated from.
+  cloud = selected(cloud, distinct_points(cloud.points));
   // Turned to the sensor; a cloud that knows none counts as seen from its frame's origin.
-  constexpr std::size_t kFewest = 3;  // points that a normal is estimated from
-  if (cloud.normals.empty() && !cloud.sensor_origin.empty() && cloud.size() >= kFewest &&
-      is_surface(cloud)) {
+  if (cloud.normals.empty() && !cloud.sensor_origin.empty() && spans_surface(cloud)) {
     estimate_normals(cloud, {.num_threads = options.num_threads});
   }
   return deviations_from_cloud(points, cloud, options);

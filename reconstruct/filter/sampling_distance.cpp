@@ -32,8 +32,16 @@ bool has_one_origin(const PointCloud& cloud) {
                      [&](const Eigen::Vector3f& o) { return o == cloud.sensor_origin.front(); });
 }
 
-/// The median distances, or what is known of them.
-SamplingDistance measured(const PointCloud& cloud, const NearestNeighbours& tree) {
+}  // namespace
+
+SamplingDistance sampling_distance(const PointCloud& cloud) {
+  cloud.check();
+  if (cloud.size() < 2) return {};
+  return sampling_distance(cloud, NearestNeighbours(cloud.points));
+}
+
+SamplingDistance sampling_distance(const PointCloud& cloud, const NearestNeighbours& tree) {
+  if (cloud.size() < 2) return {};
   const std::size_t samples = std::min(kSamples, cloud.size());
   std::vector<float> nearest(samples, std::numeric_limits<float>::quiet_NaN());
   std::vector<float> across = nearest;
@@ -54,13 +62,6 @@ SamplingDistance measured(const PointCloud& cloud, const NearestNeighbours& tree
   return result;
 }
 
-}  // namespace
-
-SamplingDistance sampling_distance(const PointCloud& cloud) {
-  cloud.check();
-  return cloud.size() < 2 ? SamplingDistance{} : measured(cloud, NearestNeighbours(cloud.points));
-}
-
 double evening_voxel(const PointCloud& cloud) {
   cloud.check();
   return has_one_origin(cloud) ? 0 : evening_voxel(cloud, NearestNeighbours(cloud.points));
@@ -68,7 +69,7 @@ double evening_voxel(const PointCloud& cloud) {
 
 double evening_voxel(const PointCloud& cloud, const NearestNeighbours& tree) {
   if (has_one_origin(cloud)) return 0;  // stripes cannot be told apart
-  const SamplingDistance distance = measured(cloud, tree);
+  const SamplingDistance distance = sampling_distance(cloud, tree);
   return distance.across > 3 * distance.nearest ? distance.across / 2 : 0;
 }
 

@@ -18,6 +18,9 @@ struct SamplingDistance {
 /// for clouds of fewer than two finite points.
 SamplingDistance sampling_distance(const PointCloud& cloud);
 
+/// The same where the tree of the cloud's points is there already.
+SamplingDistance sampling_distance(const PointCloud& cloud, const NearestNeighbours& tree);
+
 /// Voxel that evens out a cloud sampled more than three times as coarsely from stripe to stripe as
 /// along the stripe: half the coarse step [m]. 0 where the cloud is even enough as it is.
 double evening_voxel(const PointCloud& cloud);

@@ -212,14 +212,7 @@ FoundCylinder find_cylinder(const PointCloud& cloud, const ShapeSearchOptions& o
   const std::optional<Cylinder> start = best_of_trials(cloud, options);
   FoundCylinder found;
   if (start) found.indices = points_on(cloud, *start, options.inlier_distance);
-  require(found.indices.size() >= options.min_points,
-          "expected a cylinder of ",
-          options.min_points,
-          " points or more among ",
-          cloud.size(),
-          ", the best has ",
-          found.indices.size(),
-          "; raise the inlier distance or name the radius sought");
+  options.require_found("cylinder", found.indices.size(), cloud.size());
   found.fit = fit_cylinder(cloud, found.indices, *start);
   for (int round = 0; round < 4; ++round) {
     std::vector<double> away;

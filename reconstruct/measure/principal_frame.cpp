@@ -56,4 +56,15 @@ PrincipalFrame principal_frame(const std::vector<Eigen::Vector3d>& points, int n
   return frame;
 }
 
+bool spans_surface(const PointCloud& cloud) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3f& p : cloud.points) {
+    if (p.allFinite()) points.push_back(p.cast<double>());
+  }
+  if (points.size() < 3) return false;
+  constexpr double kThin = 1e-12;  // squared breadth over squared length: rounding, no surface
+  const Eigen::Vector3d spread = principal_frame(points).mean_squares;
+  return spread(1) > kThin * spread(0);
+}
+
 }  // namespace facula

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <facula/acquire/core/point_cloud.hpp>
+
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,5 +21,9 @@ struct PrincipalFrame {
 /// Every point counts the same. The same result for every number of threads. Throws Error for no
 /// points or points that are not finite.
 PrincipalFrame principal_frame(const std::vector<Eigen::Vector3d>& points, int num_threads = 0);
+
+/// Whether the cloud's finite points lie neither on one line nor in one spot, as far as their
+/// digits tell: only then is there a plane through them, and a side to be on.
+bool spans_surface(const PointCloud& cloud);
 
 }  // namespace facula

@@ -171,6 +171,21 @@ void ShapeSearchOptions::check() const {
   require(trials >= 1, "expected 1 trial or more, got ", trials);
 }
 
+void ShapeSearchOptions::require_found(const char* shape,
+                                       std::size_t found,
+                                       std::size_t points) const {
+  require(found >= min_points,
+          "expected a ",
+          shape,
+          " of ",
+          min_points,
+          " points or more among ",
+          points,
+          ", the best has ",
+          found,
+          "; raise the inlier distance or name the radius sought");
+}
+
 double trimmed_distance(std::vector<double> distances, double inlier_distance) {
   constexpr double kReach = 5;     // robust standard deviations
   constexpr double kLeast = 1e-6;  // [m]; floats hold no finer distances
@@ -185,14 +200,7 @@ FoundSphere find_sphere(const PointCloud& cloud, const ShapeSearchOptions& optio
   const std::optional<Sphere> start = best_of_trials(cloud, options);
   FoundSphere found;
   if (start) found.indices = points_on(cloud, *start, options.inlier_distance);
-  require(found.indices.size() >= options.min_points,
-          "expected a sphere of ",
-          options.min_points,
-          " points or more among ",
-          cloud.size(),
-          ", the best has ",
-          found.indices.size(),
-          "; raise the inlier distance or name the radius sought");
+  options.require_found("sphere", found.indices.size(), cloud.size());
   for (int round = 0; round < 4; ++round) {
     found.fit = fit_sphere(cloud, found.indices);
     std::vector<double> away;

@@ -42,6 +42,9 @@ struct ShapeSearchOptions {
   unsigned seed = 1;                                            ///< [1]
 
   void check() const;
+
+  /// Throws Error when the best `shape` has `found` of the cloud's `points`, fewer than min_points.
+  void require_found(const char* shape, std::size_t found, std::size_t points) const;
 };
 
 /// How far from a fitted shape its points may lie: the inlier distance, or 5 robust standard
