@@ -6,6 +6,7 @@
 #include <facula/reconstruct/filter/cloud_filters.hpp>
 #include <facula/reconstruct/filter/grid_normals.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
+#include <facula/reconstruct/measure/pose_errors.hpp>
 #include <facula/reconstruct/measure/principal_frame.hpp>
 #include <facula/reconstruct/register/pan_tilt_list.hpp>
 
@@ -20,23 +21,14 @@ namespace {
 struct SearchedCloud {
   PointCloud cloud;
   ScanGrid grid;
+  PoseErrors poses;
 };
 
 /// No plane goes through points of one line, whatever the options.
 void require_spread(const PointCloud& cloud) {
-  std::vector<Eigen::Vector3d> points;
-  for (const Eigen::Vector3f& p : cloud.points) {
-    if (p.allFinite()) points.push_back(p.cast<double>());
-  }
-  constexpr double kThin = 1e-12;  // squared breadth over squared length: rounding, no surface
-  bool surface = false;
-  if (points.size() >= 3) {
-    const Eigen::Vector3d spread = principal_frame(points).mean_squares;
-    surface = spread(1) > kThin * spread(0);
-  }
-  require(surface,
+  require(spans_surface(cloud),
           "expected points of a surface, got ",
-          points.size(),
+          cloud.size(),
           " on one line or in one spot, which no plane fits; choose another file");
 }
 
@@ -73,7 +65,7 @@ SearchedCloud read_lists(const PlaneSearch& search, Session& session) {
           "; their poses to each other are not known");
   PosedCloud scan = posed_cloud(chosen_sweeps(search, session), search.tilt_zero);
   session.figures.count("points", "points", scan.cloud.size());
-  return {std::move(scan.cloud), std::move(scan.grid)};
+  return {std::move(scan.cloud), std::move(scan.grid), {}};
 }
 
 SearchedCloud read_scans(const PlaneSearch& search, Session& session) {
@@ -89,7 +81,7 @@ SearchedCloud read_scans(const PlaneSearch& search, Session& session) {
   require_surface(scans.points_read, scans.stripes, search.scans.front());
   session.figures.count("points", "points", scans.points_read);
   session.figures.count("mixed_removed", "mixed points removed", scans.mixed_removed);
-  SearchedCloud searched{scans.project.fused(), {}};
+  SearchedCloud searched{scans.project.fused(), {}, pose_errors(scans.project)};
   if (scans.project.scans.size() == 1) searched.grid = std::move(scans.project.scans[0].grid);
   return searched;
 }
@@ -100,7 +92,9 @@ SearchedCloud read_searched(const PlaneSearch& search, Session& session) {
       all_lists(search.scans) ? read_lists(search, session) : read_scans(search, session);
   require_spread(searched.cloud);
   if (search.voxel > 0) {
-    searched.cloud = thin_by_voxel(searched.cloud, search.voxel);
+    std::vector<std::uint32_t> voxel_of;
+    searched.cloud = thin_by_voxel(searched.cloud, search.voxel, &voxel_of);
+    searched.poses = thinned(searched.poses, voxel_of, searched.cloud.size());
     searched.grid = {};
     session.figures.count("thinned_points", "points after thinning", searched.cloud.size());
   }
@@ -115,6 +109,18 @@ SearchedCloud read_searched(const PlaneSearch& search, Session& session) {
         grid_normals(searched.cloud, searched.grid, {.num_threads = session.num_threads});
   }
   return searched;
+}
+
+void add_pose_errors(const SearchedCloud& searched,
+                     std::vector<ExtractedPlane>& planes,
+                     Session& session) {
+  if (searched.poses.empty()) return;
+  add_pose_responses(searched.cloud, searched.poses, planes);
+  const auto& roots = searched.poses.root;
+  const auto unsure =
+      std::count_if(roots.begin(), roots.end(), [](const auto& root) { return !root.isZero(0); });
+  session.figures.count(
+      "unsure_poses", "poses whose uncertainty counts", static_cast<std::size_t>(unsure));
 }
 
 }  // namespace
@@ -182,6 +188,7 @@ FoundPlanes find_planes(const PlaneSearch& search, Session& session) {
           ", got none; lower --min-points or raise --inlier-mm (it was ",
           1000 * *options.inlier_distance,
           " mm)");
+  add_pose_errors(searched, found.planes, session);
   session.figures.number("inlier_mm", "farthest from a plane", 1000 * *options.inlier_distance, 2);
   session.figures.count("plane_count", "planes", found.planes.size());
   found.cloud = std::move(searched.cloud);

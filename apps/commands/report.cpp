@@ -10,6 +10,7 @@
 #include <facula/apps/commands/report_sections.hpp>
 #include <facula/apps/report/report_pictures.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
+#include <facula/reconstruct/measure/pose_errors.hpp>
 #include <facula/reconstruct/mesh/mesh_exchange.hpp>
 
 #include <memory>
@@ -55,16 +56,19 @@ void declare(Arguments& arguments, ReportArguments& a) {
 
 /// Normals tell the faces of a wall from the points in front of it.
 ReportSection planes_section(const std::string& heading,
-                             PointCloud cloud,
+                             const ScanProject& project,
                              std::optional<double> inlier_distance,
                              int num_threads) {
+  PointCloud cloud = project.fused();
   NormalOptions normals;
   normals.num_threads = num_threads;
   estimate_normals(cloud, normals);
   PlaneExtractionOptions options;
   options.inlier_distance = inlier_distance ? *inlier_distance : default_inlier_distance(cloud);
   options.num_threads = num_threads;
-  return cloud_section(heading, cloud, extract_planes(cloud, options), *options.inlier_distance);
+  std::vector<ExtractedPlane> planes = extract_planes(cloud, options);
+  add_pose_responses(cloud, pose_errors(project), planes);
+  return cloud_section(heading, cloud, planes, *options.inlier_distance);
 }
 
 void add_scans(const ReportArguments& a, int num_threads, Report& report) {
@@ -73,10 +77,8 @@ void add_scans(const ReportArguments& a, int num_threads, Report& report) {
     if (file_kind(path) == FileKind::kScan) {
       report.sections.push_back(scan_section(name, read_scan(path)));
     }
-    report.sections.push_back(planes_section("Planes in " + name,
-                                             read_posed_scans({path}).project.fused(),
-                                             a.plane_inlier,
-                                             num_threads));
+    report.sections.push_back(planes_section(
+        "Planes in " + name, read_posed_scans({path}).project, a.plane_inlier, num_threads));
   }
 }
 
@@ -110,7 +112,7 @@ Report make_report(const ReportArguments& a, Session& session) {
     for (const PosedCloud& scan : project.scans) poses.push_back(scan.world_from_scan);
     report.sections.push_back(project_section(project));
     report.sections.push_back(
-        planes_section("All scans together", project.fused(), a.plane_inlier, session.num_threads));
+        planes_section("All scans together", project, a.plane_inlier, session.num_threads));
   }
   session.step("mesh", 4, kSteps);
   if (!a.mesh.empty()) {

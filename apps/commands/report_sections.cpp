@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/capture/frame_source.hpp>
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/acquire/stripe/stripe_detector.hpp>
 #include <facula/apps/cli/arguments.hpp>
 #include <facula/apps/cli/figures.hpp>
@@ -8,6 +9,7 @@
 #include <facula/apps/commands/flatness_figures.hpp>
 #include <facula/apps/commands/info_figures.hpp>
 #include <facula/apps/commands/map_figures.hpp>
+#include <facula/apps/commands/plane_figures.hpp>
 #include <facula/apps/commands/report_sections.hpp>
 #include <facula/apps/report/deviation_map.hpp>
 #include <facula/apps/report/map_top_view.hpp>
@@ -36,40 +38,11 @@ ReportTable described(const Thing& thing) {
   return figure_table("Figures", figures);
 }
 
-ReportTable plane_table(const std::vector<ExtractedPlane>& planes) {
-  ReportTable table{"Planes, largest first",
-                    {"plane",
-                     "normal",
-                     "distance [mm]",
-                     "points",
-                     "rms [mm]",
-                     "flatness [mm]",
-                     "extent [mm]",
-                     "4 sigma/D [%]"},
-                    {}};
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    const PlaneFit& fit = planes[i].fit;
-    const Eigen::Vector3d& n = fit.plane.normal;
-    table.rows.push_back(
-        {std::to_string(i + 1),
-         fixed_text(n.x(), 4) + ", " + fixed_text(n.y(), 4) + ", " + fixed_text(n.z(), 4),
-         fixed_text(1000 * fit.plane.distance, 2),
-         std::to_string(fit.points),
-         fixed_text(1000 * fit.rms, 3),
-         fixed_text(1000 * fit.peak_to_valley, 2),
-         fixed_text(1000 * fit.extent, 0),
-         fixed_text(100 * fit.system_error, 3)});
-  }
-  return table;
-}
-
 /// With the noise that the points know; without where they know none.
 std::vector<MeasuredFlatness> flatness_of(const PointCloud& cloud,
                                           const std::vector<ExtractedPlane>& planes) {
   std::vector<MeasuredFlatness> result;
-  const bool has_noise =
-      !cloud.sigma.empty() &&
-      std::all_of(cloud.sigma.begin(), cloud.sigma.end(), [](float s) { return s > 0; });
+  const bool has_noise = knows_sigma(cloud);
   for (const ExtractedPlane& plane : planes) {
     MeasuredFlatness& surface = result.emplace_back();
     surface.flatness = measure_flatness(cloud, plane.indices);
@@ -155,13 +128,11 @@ ReportSection cloud_section(const std::string& heading,
   section.text =
       "Planes found in the points; blue points lie below a plane, red ones above. Flatness is that "
       "of surface and noise together: the last columns say what noise alone would show.";
-  section.tables.push_back(plane_table(planes));
   const std::vector<MeasuredFlatness> flatness = flatness_of(cloud, planes);
   Figures figures;
+  report_planes(planes, figures);
   figures.table(flatness_table(flatness));
-  for (ReportTable& table : report_tables("Flatness", figures)) {
-    section.tables.push_back(std::move(table));
-  }
+  section.tables = report_tables("Planes", figures);
   for (std::size_t i = 0; i < planes.size(); ++i) {
     section.pictures.push_back(picture(plane_caption(i + 1, flatness[i].flatness, band),
                                        plane_deviation(planes[i], cloud)));

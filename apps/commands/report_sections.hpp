@@ -26,7 +26,8 @@ ReportSection capture_section(const Capture& capture);
 /// Range image.
 ReportSection scan_section(const std::string& name, const PolarScan& scan);
 
-/// The cloud from three sides, its planes with flatness, and a picture of each plane's deviations.
+/// The cloud from three sides, its planes with the figures of measure planes and measure flatness,
+/// and a picture of each plane's deviations.
 /// `band` [m] is the inlier distance they were found with, infinite where it is not known: planes
 /// that it cut are named.
 ReportSection cloud_section(const std::string& heading,

@@ -20,11 +20,16 @@ struct Plane {
   double signed_distance(const Eigen::Vector3d& x) const { return normal.dot(x) - distance; }
 };
 
+struct PoseErrors;
+
 /// How the points count in a fit.
 struct PlaneFitOptions {
   /// Weights 1 / (sigma along the normal)^2 where the cloud has sigma; else every point counts the
   /// same, as the least-squares reference plane of ISO 12781 asks.
   bool weigh_by_sigma = true;
+
+  /// How unsure the poses are of the scans that the cloud is made up of; null = exact. Not owned.
+  const PoseErrors* poses = nullptr;
 };
 
 /// A least-squares plane, how well the points lie on it, and how surely they decide it.
@@ -50,6 +55,12 @@ struct PlaneFit {
   /// How (a, b, h) answer a range error that all points share [rad/m, rad/m, 1]: what independent
   /// errors leave out (a wrong calibration moves a whole plane).
   Eigen::Vector3d range_response = Eigen::Vector3d::Zero();
+
+  /// How (a, b, h) answer one standard deviation of each of the six independent parts of the error
+  /// of each scan's pose [rad, rad, m]: six columns a scan, none where poses are exact. A plane of
+  /// several scans answers each by the points it has of it (to first order, GUM 5.1.2). Not part of
+  /// the covariance, for planes of one scan share it.
+  Eigen::Matrix<double, 3, Eigen::Dynamic> pose_response;
 
   double normal_sigma = 0;    ///< 1 standard deviation of the normal's direction, worst axis [rad]
   double distance_sigma = 0;  ///< 1 standard deviation of the distance at the centroid [m]

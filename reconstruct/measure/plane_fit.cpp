@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/reconstruct/measure/bounding_rectangle.hpp>
-#include <facula/reconstruct/measure/plane.hpp>
+#include <facula/reconstruct/measure/pose_errors.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,7 @@ struct Samples {
   std::vector<Eigen::Vector3d> x;    ///< [m]
   std::vector<Eigen::Vector3d> ray;  ///< from the sensor, unit length
   std::vector<double> sigma;         ///< along the ray [m]; empty where there is none
+  std::vector<std::size_t> index;    ///< in the cloud
   double mean_range = 0;             ///< [m]
 
   double sigma_along(const Eigen::Vector3d& normal, std::size_t i) const {
@@ -31,6 +33,7 @@ Samples samples_of(const PointCloud& cloud, const std::vector<std::size_t>& indi
   Samples samples;
   samples.x.reserve(indices.size());
   samples.ray.reserve(indices.size());
+  samples.index.reserve(indices.size());
   bool has_sigma = !cloud.sigma.empty();
   for (const std::size_t i : indices) {
     if (!cloud.points[i].allFinite()) continue;
@@ -40,10 +43,11 @@ Samples samples_of(const PointCloud& cloud, const std::vector<std::size_t>& indi
                                     : Eigen::Vector3d(cloud.sensor_origin[i].cast<double>());
     const double range = (x - eye).norm();
     samples.x.push_back(x);
+    samples.index.push_back(i);
     samples.ray.emplace_back(range > 0 ? Eigen::Vector3d((x - eye) / range)
                                        : Eigen::Vector3d::Zero());
     samples.mean_range += range;
-    has_sigma = has_sigma && std::isfinite(cloud.sigma[i]) && cloud.sigma[i] > 0;
+    has_sigma = has_sigma && is_known_sigma(cloud.sigma[i]);
     if (has_sigma) samples.sigma.push_back(cloud.sigma[i]);
   }
   if (!has_sigma) samples.sigma.clear();
@@ -114,6 +118,12 @@ void describe_distances(const Samples& samples, PlaneFit& fit) {
   fit.system_error = fit.mean_range > 0 ? 4 * fit.rms / fit.mean_range : 0;
 }
 
+/// A point's row of J: how far the plane moves there, along the normal, by (a, b, h).
+Eigen::Vector3d row_of(const PlaneFit& fit, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d d = x - fit.centroid;
+  return {-d.dot(fit.axis_u), -d.dot(fit.axis_v), 1};
+}
+
 /// The estimate is linear in the noise e: (a, b, h) = (J'WJ)^-1 J'W e with rows J = (-u, -v, 1), so
 /// its covariance is (J'WJ)^-1 J'W S W J (J'WJ)^-1 with S the points' own (GUM, 5.1.2 and F.1.2).
 void describe_uncertainty(const Samples& samples,
@@ -126,8 +136,7 @@ void describe_uncertainty(const Samples& samples,
   Eigen::Vector3d shared = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < samples.x.size(); ++i) {
     const double w = weight.empty() ? 1.0 : weight[i];
-    const Eigen::Vector3d d = samples.x[i] - fit.centroid;
-    const Eigen::Vector3d row(-d.dot(fit.axis_u), -d.dot(fit.axis_v), 1);
+    const Eigen::Vector3d row = row_of(fit, samples.x[i]);
     const double variance = samples.sigma.empty()
                                 ? fit.rms * fit.rms
                                 : misfit * std::pow(samples.sigma_along(fit.plane.normal, i), 2);
@@ -142,6 +151,34 @@ void describe_uncertainty(const Samples& samples,
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> tilts(fit.covariance.topLeftCorner<2, 2>());
   fit.normal_sigma = std::sqrt(std::max(0.0, tilts.eigenvalues()(1)));
   fit.distance_sigma = std::sqrt(fit.covariance(2, 2));
+}
+
+/// (J'WJ)^-1 J'W e again, where e is how far a twist (t, w) of its scan moves a point x along the
+/// normal: n.t + (x x n).w.
+void describe_pose_response(const Samples& samples,
+                            const std::vector<double>& weight,
+                            const PoseErrors& poses,
+                            PlaneFit& fit) {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  fit.pose_response.setZero(3, static_cast<Eigen::Index>(6 * poses.root.size()));
+  const Eigen::Vector3d& normal = fit.plane.normal;
+  for (std::size_t i = 0; i < samples.x.size(); ++i) {
+    const Eigen::Vector3d row = (weight.empty() ? 1.0 : weight[i]) * row_of(fit, samples.x[i]);
+    information += row * row_of(fit, samples.x[i]).transpose();
+    Eigen::Matrix<double, 1, 6> moved;
+    moved << normal.transpose(), samples.x[i].cross(normal).transpose();
+    const std::size_t point = samples.index[i];
+    for (std::size_t k = poses.first[point]; k < poses.first[point + 1]; ++k) {
+      const auto [scan, share] = poses.shares[k];
+      fit.pose_response.middleCols<6>(6 * static_cast<Eigen::Index>(scan)) +=
+          double(share) * row * moved;
+    }
+  }
+  const Eigen::Matrix3d inverse = information.inverse();
+  for (std::size_t scan = 0; scan < poses.root.size(); ++scan) {
+    auto part = fit.pose_response.middleCols<6>(6 * static_cast<Eigen::Index>(scan));
+    part = (inverse * part * poses.root[scan]).eval();
+  }
 }
 
 void describe_extent(const Samples& samples, PlaneFit& fit) {
@@ -179,6 +216,14 @@ PlaneFit fit_plane(const PointCloud& cloud,
   }
   describe_distances(samples, fit);
   describe_uncertainty(samples, weight, fit);
+  if (options.poses != nullptr && !options.poses->empty()) {
+    require(options.poses->first.size() == cloud.size() + 1,
+            "the errors of poses are told of ",
+            options.poses->first.size() - 1,
+            " points, the cloud has ",
+            cloud.size());
+    describe_pose_response(samples, weight, *options.poses, fit);
+  }
   describe_extent(samples, fit);
   return fit;
 }

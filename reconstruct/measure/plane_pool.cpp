@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/known_sigma.hpp>
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/reconstruct/filter/nearest_neighbours.hpp>
 #include <facula/reconstruct/filter/point_spacing.hpp>
@@ -27,10 +28,10 @@ constexpr std::size_t kSpacings = 20000;  // points whose spacing is measured [1
 constexpr std::size_t kPointsAChunk = 16384;
 
 /// Distance to the nearest other point, for every n-th point.
-std::vector<float> some_spacings(const std::vector<Eigen::Vector3f>& points, int num_threads) {
+std::vector<float> some_spacings(const std::vector<Eigen::Vector3f>& points,
+                                 const NearestNeighbours& tree,
+                                 int num_threads) {
   std::vector<float> spacing(points.size(), std::numeric_limits<float>::quiet_NaN());
-  if (points.size() < 2) return spacing;
-  const NearestNeighbours tree(points);
   const std::size_t count = std::min(kSpacings, points.size());
   const auto measure = [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
@@ -65,10 +66,11 @@ std::optional<Plane> principal_plane(const PointCloud& cloud, const Indices& ind
 PlanePool::PlanePool(const PointCloud& cloud, const PlaneExtractionOptions& options)
     : cloud_(cloud),
       options_(options),
-      inlier_distance_(options.inlier_distance.value_or(0)),
-      spacing_(some_spacings(cloud.points, options.num_threads)),
-      across_(sampling_distance(cloud).across) {
-  if (!options.inlier_distance) inlier_distance_ = default_inlier_distance(cloud);
+      inlier_distance_(options.inlier_distance ? *options.inlier_distance
+                                               : default_inlier_distance(cloud)) {
+  const NearestNeighbours tree(cloud.points, options.num_threads);
+  spacing_ = some_spacings(cloud.points, tree, options.num_threads);
+  across_ = sampling_distance(cloud, tree).across;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (cloud.points[i].allFinite()) left_.push_back(i);
   }
@@ -76,6 +78,7 @@ PlanePool::PlanePool(const PointCloud& cloud, const PlaneExtractionOptions& opti
 
 double PlanePool::reach_of(std::size_t point) const {
   if (options_.inlier_distance || cloud_.sigma.empty()) return inlier_distance_;
+  if (!is_known_sigma(cloud_.sigma[point])) return inlier_distance_;
   return std::max(inlier_distance_, 3.0 * static_cast<double>(cloud_.sigma[point]));
 }
 

@@ -13,27 +13,25 @@ namespace {
 
 constexpr double kUnknownWay = 3;  // sigmas below which an angle's direction is not known [1]
 
-/// How a quantity answers the (a, b, h) of a plane at its centroid.
-using Response = Eigen::Vector3d;
-
-/// How a component of the normal along `way` answers.
-Response tilt_response(const PlaneFit& fit, const Eigen::Vector3d& way) {
-  return {fit.axis_u.dot(way), fit.axis_v.dot(way), 0};
+/// How a component of the normal along `way` answers, `sign` times.
+PlaneAnswer tilt(const PlaneFit& fit, const Eigen::Vector3d& way, double sign = 1) {
+  return {fit, sign * Eigen::Vector3d(fit.axis_u.dot(way), fit.axis_v.dot(way), 0)};
 }
 
-double variance_of(const PlaneFit& fit, const Response& response) {
-  return response.dot(fit.covariance * response);
+double own_variance(const PlaneAnswer& answer) {
+  return answer.to.dot(answer.fit.covariance * answer.to);
 }
 
-/// Variance of a quantity that answers two planes, with the error their ranges share.
-double joint_variance(const PlaneFit& a,
-                      const Response& to_a,
-                      const PlaneFit& b,
-                      const Response& to_b,
-                      const RelationOptions& options) {
-  const double shared = to_a.dot(a.range_response) + to_b.dot(b.range_response);
-  return variance_of(a, to_a) + variance_of(b, to_b) +
-         std::pow(options.shared_range_sigma * shared, 2);
+/// Of errors of poses: what one plane and the other make of an error of the same scan adds up
+/// before it is squared. A plane that knows of none has none.
+double pose_variance(const PlaneAnswer& a, const PlaneAnswer& b) {
+  const Eigen::Index parts = std::max(a.fit.pose_response.cols(), b.fit.pose_response.cols());
+  Eigen::RowVectorXd moved = Eigen::RowVectorXd::Zero(parts);
+  for (const PlaneAnswer* answer : {&a, &b}) {
+    const auto& response = answer->fit.pose_response;
+    moved.head(response.cols()) += answer->to.transpose() * response;
+  }
+  return moved.squaredNorm();
 }
 
 /// The unit vector at right angles to `from` that leads to `to`; any one where both are parallel.
@@ -43,6 +41,12 @@ Eigen::Vector3d way_to(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
 }
 
 }  // namespace
+
+double joint_variance(const PlaneAnswer& a, const PlaneAnswer& b, const RelationOptions& options) {
+  const double shared = a.to.dot(a.fit.range_response) + b.to.dot(b.fit.range_response);
+  return own_variance(a) + own_variance(b) + pose_variance(a, b) +
+         std::pow(options.shared_range_sigma * shared, 2);
+}
 
 void RelationOptions::check() const {
   require(shared_range_sigma >= 0 && std::isfinite(shared_range_sigma),
@@ -60,11 +64,9 @@ Measured measured_angle(const PlaneFit& a, const PlaneFit& b, const RelationOpti
   const Eigen::Vector3d across = a.plane.normal.cross(near).normalized();
   const Eigen::Vector3d open = across.cross(nb);
   Measured angle{angle_between(a.plane, b.plane), 0};
-  double variance =
-      joint_variance(a, tilt_response(a, -near), b, side * tilt_response(b, open), options);
+  double variance = joint_variance(tilt(a, near, -1), tilt(b, open, side), options);
   if (angle.value < kUnknownWay * std::sqrt(variance)) {
-    variance +=
-        joint_variance(a, tilt_response(a, -across), b, side * tilt_response(b, across), options);
+    variance += joint_variance(tilt(a, across, -1), tilt(b, across, side), options);
   }
   angle.sigma = std::sqrt(variance);
   return angle;
@@ -79,9 +81,9 @@ Measured measured_corner(const PlaneFit& a, const PlaneFit& b, const RelationOpt
 Measured measured_distance(const PlaneFit& a, const PlaneFit& b, const RelationOptions& options) {
   options.check();
   const Eigen::Vector3d d = b.centroid - a.centroid;
-  const Response to_a(d.dot(a.axis_u), d.dot(a.axis_v), -1);
-  const Response to_b(0, 0, a.plane.normal.dot(b.plane.normal));
-  return {distance_between(a, b), std::sqrt(joint_variance(a, to_a, b, to_b, options))};
+  const PlaneAnswer of_a{a, {d.dot(a.axis_u), d.dot(a.axis_v), -1}};
+  const PlaneAnswer of_b{b, {0, 0, a.plane.normal.dot(b.plane.normal)}};
+  return {distance_between(a, b), std::sqrt(joint_variance(of_a, of_b, options))};
 }
 
 Measured measured_angle_to(const PlaneFit& fit,

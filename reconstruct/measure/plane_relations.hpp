@@ -22,9 +22,19 @@ struct RelationOptions {
   void check() const;
 };
 
-/// Angle between two planes [rad], in [0, pi/2]. To first order in the covariances of both (GUM,
-/// 5.1.2), which are taken as independent. Below three standard deviations nobody knows which way
-/// the planes open, so sigma then holds both ways.
+/// A plane, and how a quantity answers its (a, b, h) (PlaneFit::covariance).
+struct PlaneAnswer {
+  const PlaneFit& fit;
+  Eigen::Vector3d to;
+};
+
+/// Variance of a quantity that answers two planes, to first order (GUM 5.1.2): of their points'
+/// noise, which is independent, and of what they share: the error of all ranges and those of the
+/// poses of their scans, which cancel where both planes are of one scan.
+double joint_variance(const PlaneAnswer& a, const PlaneAnswer& b, const RelationOptions& options);
+
+/// Angle between two planes [rad], in [0, pi/2], with its joint_variance(). Below three standard
+/// deviations nobody knows which way the planes open, so sigma then holds both ways.
 Measured measured_angle(const PlaneFit& a, const PlaneFit& b, const RelationOptions& options = {});
 
 /// Angle of the corner or edge that two planes seen from the frame's origin make [rad], in [0, pi]:

@@ -41,13 +41,10 @@ double pair_variance(const PlaneFit& surface,
                      const Eigen::Vector3d& apart,
                      const RelationOptions& options) {
   const double side = datum.plane.normal.dot(surface.plane.normal);
-  const Eigen::Vector3d to_datum(apart.dot(datum.axis_u), apart.dot(datum.axis_v), 0);
-  const Eigen::Vector3d to_surface =
-      -side * Eigen::Vector3d(apart.dot(surface.axis_u), apart.dot(surface.axis_v), 0);
-  const double shared = to_datum.dot(datum.range_response) + to_surface.dot(surface.range_response);
-  return to_datum.dot(datum.covariance * to_datum) +
-         to_surface.dot(surface.covariance * to_surface) +
-         std::pow(options.shared_range_sigma * shared, 2);
+  const auto tilted = [&apart](const PlaneFit& fit) {
+    return Eigen::Vector3d(apart.dot(fit.axis_u), apart.dot(fit.axis_v), 0);
+  };
+  return joint_variance({datum, tilted(datum)}, {surface, -side * tilted(surface)}, options);
 }
 
 double largest_pair_variance(const PlaneFit& surface,

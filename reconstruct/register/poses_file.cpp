@@ -15,12 +15,17 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Eigenvalues>
 #include <toml++/toml.h>
 
 namespace facula {
 namespace {
 
 namespace fs = std::filesystem;
+
+using Covariance = Eigen::Matrix<double, 6, 6>;
+
+constexpr const char* kCovariance = "covariance_m_rad";
 
 void require_known_keys(const toml::table& table,
                         const std::vector<std::string>& known,
@@ -98,9 +103,43 @@ RigidTransform pose_of_scan(const toml::table& table, const std::string& where) 
   return pose;
 }
 
+/// From the 21 numbers of its upper triangle, row by row; zero where there are none.
+Covariance covariance_of_scan(const toml::table& table, const std::string& where) {
+  Covariance covariance = Covariance::Zero();
+  const auto numbers = numbers_if<21>(table, kCovariance, where);
+  if (!numbers) return covariance;
+  auto next = numbers->begin();
+  for (Eigen::Index row = 0; row < 6; ++row) {
+    for (Eigen::Index col = row; col < 6; ++col) {
+      covariance(row, col) = covariance(col, row) = *next++;
+    }
+  }
+  // Metres and radians compare once each has a variance of 1.
+  const Eigen::VectorXd scale =
+      covariance.diagonal().unaryExpr([](double x) { return x > 0 ? 1 / std::sqrt(x) : 1.0; });
+  const Covariance scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Covariance> solver(scaled, Eigen::EigenvaluesOnly);
+  require(solver.eigenvalues()(0) > -1e-9,
+          where,
+          ": ",
+          kCovariance,
+          " is the covariance of nothing, for some combination of its parts has a negative "
+          "variance; leave it out or register the scans again");
+  return covariance;
+}
+
+std::vector<double> upper_triangle(const Covariance& covariance) {
+  std::vector<double> numbers;
+  for (Eigen::Index row = 0; row < 6; ++row) {
+    for (Eigen::Index col = row; col < 6; ++col) numbers.push_back(covariance(row, col));
+  }
+  return numbers;
+}
+
 PosedCloud read_scan_entry(const toml::table& table, const fs::path& path, std::size_t number) {
   const std::string where = name_of(path) + ", scan " + std::to_string(number);
-  require_known_keys(table, {"name", "file", "translation_mm", "quaternion_xyzw"}, where);
+  require_known_keys(
+      table, {"name", "file", "translation_mm", "quaternion_xyzw", kCovariance}, where);
   const auto file = table["file"].value<std::string>();
   require(file && !file->empty(), where, ": missing the key file, the name of the scan's file");
   PosedCloud scan = read_scan_file(packed_or_plain(path.parent_path() / *file));
@@ -109,6 +148,7 @@ PosedCloud read_scan_entry(const toml::table& table, const fs::path& path, std::
   if (table.contains("translation_mm") || table.contains("quaternion_xyzw")) {
     scan.world_from_scan = pose_of_scan(table, where);
   }
+  scan.pose_covariance = covariance_of_scan(table, where);
   return scan;
 }
 
@@ -118,13 +158,10 @@ std::string toml_number(double value) {
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-template <typename Vector>
-std::string toml_list(const Vector& values) {
-  std::string list = "[";
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    if (i > 0) list += ", ";
-    list += toml_number(values[i]);
-  }
+template <typename Numbers>
+std::string toml_list(const Numbers& values) {
+  std::string list;
+  for (const double value : values) list += (list.empty() ? "[" : ", ") + toml_number(value);
   return list + "]";
 }
 
@@ -156,13 +193,18 @@ ScanProject read_poses_file(const fs::path& path) {
 
 void write_poses(const fs::path& path, const ScanProject& project) {
   AtomicFile file(path);
-  file.stream() << "# x_in_world = R(quaternion) x_in_scan + translation\n";
+  file.stream() << "# x_in_world = R(quaternion) x_in_scan + translation\n"
+                   "# covariance_m_rad: of the twist (shift, turn) in true pose = exp(twist) pose, "
+                   "upper triangle row by row\n";
   for (const PosedCloud& scan : project.scans) {
     const RigidTransform& pose = scan.world_from_scan;
     file.stream() << "\n[[scan]]\nname = " << toml_quoted(scan.name)
                   << "\nfile = " << toml_quoted(relative_name(scan.file, path.parent_path()))
                   << "\ntranslation_mm = " << toml_list(Eigen::Vector3d(pose.translation * 1000))
                   << "\nquaternion_xyzw = " << toml_list(pose.rotation.coeffs()) << '\n';
+    const Covariance& covariance = scan.pose_covariance;
+    if (covariance.isZero(0) || !covariance.allFinite()) continue;
+    file.stream() << kCovariance << " = " << toml_list(upper_triangle(covariance)) << '\n';
   }
   file.commit();
 }

@@ -149,7 +149,9 @@ RegisterScansResult register_scans(ScanProject& project, const RegisterScansOpti
   result.degrees_of_freedom = network.degrees_of_freedom;
   describe_placements(scans, network, result);
   for (std::size_t i = 0; i < project.scans.size(); ++i) {
-    if (result.scans[i].placed) project.scans[i].world_from_scan = *network.world_from_scan[i];
+    if (!result.scans[i].placed) continue;
+    project.scans[i].world_from_scan = *network.world_from_scan[i];
+    project.scans[i].pose_covariance = result.scans[i].covariance;
   }
   return result;
 }

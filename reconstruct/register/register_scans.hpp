@@ -82,11 +82,11 @@ struct RegisterScansResult {
 /// Finds the poses of all scans, from nothing or from given poses: registers every pair, joins the
 /// pairs in a pose graph that gives up wrong ones, registers all pairs that overlap once more from
 /// there, checks every scan against all others, and fits the points of all pairs at once. Poses of
-/// placed scans are updated; a scan that cannot be placed keeps its pose and is refused with the
-/// reason. One scan keeps its pose: from given poses the first of the largest group, from nothing
-/// the one against which the others are known best. The result does not depend on the order of the
-/// scans where their names differ (but for that first one). Throws Error when fewer than two scans
-/// can be used.
+/// placed scans and their covariances are updated; a scan that cannot be placed keeps its pose and
+/// is refused with the reason. One scan keeps its pose: from given poses the first of the largest
+/// group, from nothing the one against which the others are known best. The result does not depend
+/// on the order of the scans where their names differ (but for that first one). Throws Error when
+/// fewer than two scans can be used.
 RegisterScansResult register_scans(ScanProject& project, const RegisterScansOptions& options = {});
 
 }  // namespace facula

@@ -18,6 +18,10 @@ struct PosedCloud {
   PointCloud cloud;
   RigidTransform world_from_scan;
   ScanGrid grid;  ///< of the cloud's points; empty where the file has none
+
+  /// Covariance of the twist e in true pose = exp_se3(e) * world_from_scan [m^2, m rad, rad^2],
+  /// against the scan that stayed where it was; zero of that one, and where nobody stated it.
+  Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 /// Several scans with their poses.
@@ -30,7 +34,9 @@ struct ScanProject {
 
 /// Reads posed scans:
 ///   poses.toml           [[scan]] tables with name, file, translation_mm, quaternion_xyzw (a pose
-///                        here wins over the VIEWPOINT of the scan's own file); or its folder
+///                        here wins over the VIEWPOINT of the scan's own file) and
+///                        covariance_m_rad, the upper triangle of pose_covariance row by row; or
+///                        its folder
 ///   *.conf               Stanford range scans (`bmesh FILE tx ty tz qx qy qz qw`; x_in_world =
 ///                        R(conj(q)) x + t; the `camera` line is not a sensor origin)
 ///   a folder of 3DTK     scanNNN.3d + scanNNN.pose: centimetres, left-handed, Euler angles; ranges

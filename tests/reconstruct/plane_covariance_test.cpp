@@ -139,6 +139,24 @@ TEST(PlaneCovariance, SaysHowThePlaneAnswersAnErrorThatAllRangesShare) {
   EXPECT_GT(told.norm(), 5e-4);
 }
 
+TEST(PlaneCovariance, TakesUnknownSigmasForNone) {
+  const Wall wall(80);
+  Random random(4);
+  PointCloud cloud = wall.seen(random);
+  const PlaneFit weighed = fit_plane(cloud);
+  PointCloud bare = cloud;
+  bare.sigma.clear();
+  const PlaneFit none = fit_plane(bare);
+  for (const float unknown : {0.0F, -1.0F, INFINITY, NAN}) {
+    cloud.sigma[5] = unknown;
+    const PlaneFit fit = fit_plane(cloud);
+    EXPECT_EQ(fit.plane.normal, none.plane.normal) << unknown;
+    EXPECT_EQ(fit.covariance, none.covariance) << unknown;
+    EXPECT_EQ(fit.chi_squared, 0) << unknown;
+  }
+  EXPECT_NE(weighed.plane.normal, none.plane.normal);
+}
+
 TEST(PlaneOutline, IsTheHullOnThePlaneWithItsArea) {
   PointCloud cloud;
   for (const float x : {0.0F, 1.0F, 2.0F}) {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 namespace facula {
@@ -75,7 +76,15 @@ void expect_truth(const Room& room, const ScanProject& found, const RegisterScan
     EXPECT_TRUE(is_near_pose(
         true_from_found * found.scans[i].world_from_scan, room.truth[i], 0.05 * kDegree, 0.002))
         << found.scans[i].name;
+    // The project states how far off that is: chi-squared of six below its 99.9 %.
+    if (i == result.anchor) continue;
+    const RigidTransform off =
+        true_from_found.inverse() * room.truth[i] * found.scans[i].world_from_scan.inverse();
+    const Eigen::Matrix<double, 6, 1> twist = log_se3(off);
+    EXPECT_LT(twist.dot(found.scans[i].pose_covariance.ldlt().solve(twist)), 22.5)
+        << found.scans[i].name;
   }
+  EXPECT_TRUE(found.scans[result.anchor].pose_covariance.isZero(0));
 }
 
 bool same_bits(const ScanProject& a, const ScanProject& b) {

@@ -111,6 +111,39 @@ PolarScan small_scan() {
   return scan;
 }
 
+TEST(WritePoses, StatesTheCovarianceOfAPose) {
+  const TemporaryFolder folder;
+  folder.write("a.xyz", kPoints);
+  const auto file = folder.write("poses.toml", "[[scan]]\nfile = \"a.xyz\"\n");
+  ScanProject project = read_scan_project(file);
+  EXPECT_TRUE(project.scans[0].pose_covariance.isZero(0));
+  Eigen::Matrix<double, 6, 6> root;
+  for (Eigen::Index i = 0; i < 36; ++i) root(i / 6, i % 6) = 1e-3 * std::sin(1.0 + double(i * i));
+  project.scans[0].pose_covariance = root * root.transpose();
+  write_poses(file, project);
+  EXPECT_TRUE(read_scan_project(file).scans[0].pose_covariance.isApprox(
+      project.scans[0].pose_covariance, 1e-15));
+  project.scans[0].pose_covariance(2, 2) = INFINITY;  // no direction may be told as sure
+  write_poses(file, project);
+  EXPECT_TRUE(read_scan_project(file).scans[0].pose_covariance.isZero(0));
+}
+
+TEST(ReadScanProject, RefusesACovarianceOfNothing) {
+  const TemporaryFolder folder;
+  folder.write("a.xyz", kPoints);
+  const std::string entry = "[[scan]]\nfile = \"a.xyz\"\ncovariance_m_rad = ";
+  expect_error([&] { read_scan_project(folder.write("poses.toml", entry + "[1, 2]\n")); },
+               "list of 21 numbers");
+  const std::string negative =
+      "[-1e-6, 0,0,0,0,0, 1e-6, 0,0,0,0, 1e-6, 0,0,0, 1e-8, 0,0, 1e-8, 0, 1e-8]\n";
+  expect_error([&] { read_scan_project(folder.write("poses.toml", entry + negative)); },
+               "negative variance");
+  const std::string impossible =  // shifts that correlate by 2
+      "[1e-6, 2e-6,0,0,0,0, 1e-6, 0,0,0,0, 1e-6, 0,0,0, 1e-8, 0,0, 1e-8, 0, 1e-8]\n";
+  expect_error([&] { read_scan_project(folder.write("poses.toml", entry + impossible)); },
+               "negative variance");
+}
+
 TEST(ReadScanProject, TakesTheViewpointOfAPcdUnlessPosesSayOtherwise) {
   const TemporaryFolder folder;
   const PolarScan scan = small_scan();

@@ -3,6 +3,7 @@
 // the scans of set range/os3ds-rotating-lidar, whose notes put it at -8 +- 2 degrees.
 #include <facula/acquire/core/random.hpp>
 #include <facula/reconstruct/measure/tilt_zero.hpp>
+#include <facula/tests/reconstruct/corner_series.hpp>
 #include <facula/tests/support/matchers.hpp>
 #include <facula/tests/support/real_data.hpp>
 
@@ -67,23 +68,11 @@ TEST(TiltZero, RefusesAScanThatDoesNotTellIt) {
 
 TEST(TiltZeroRealData, IsMinusEightDegreesInTheScansOfTheCorner) {
   FACULA_REQUIRE_REAL_DATA(folder, "range/os3ds-rotating-lidar");
-  // All but 2155, which its author calls bad. The sweeps with rising tilt alone: the others are
-  // off by a backlash that was set anew for every scan.
-  std::vector<double> zeros;
-  for (const char* name : {"210716-1531-LiDAR-90-Moderate",
-                           "210716-1613-LiDAR-90-Moderate",
-                           "210716-1632-LiDAR-90-Moderate",
-                           "210716-1658-LiDAR-90-Moderate",
-                           "210716-1718-LiDAR-90-Fine",
-                           "210718-2226-LiDAR-90-Fine",
-                           "210718-2325-LiDAR-180-Fine"}) {
-    const PanTiltList list = read_pan_tilt_list(folder / (std::string(name) + ".csv"));
-    const TiltZero found = find_tilt_zero(sweeps_of(list).rising);
-    zeros.push_back(found.tilt_zero.value / kDegree);
-    EXPECT_NEAR(zeros.back(), -8, 2.5) << name;
-    EXPECT_GT(found.on_planes, 0.55) << name;
-    RecordProperty(name, std::to_string(zeros.back()));
-  }
+  const TiltZeroSeries series = tilt_zero_series(folder);
+  std::vector<double> zeros = series.zero.values;
+  ASSERT_EQ(zeros.size(), 7U);
+  for (const double zero : zeros) EXPECT_NEAR(zero, -8, 2.5);
+  for (const double share : series.on_planes.values) EXPECT_GT(share, 0.55);
   std::sort(zeros.begin(), zeros.end());
   EXPECT_NEAR(zeros[3], -8, 1);  // the median
 }

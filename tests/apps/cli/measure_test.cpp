@@ -57,6 +57,29 @@ TEST_F(Measure, APlaneIsTheSamePlaneInEveryCommand) {
   }
 }
 
+TEST_F(Measure, AnglesBetweenScansHoldTheUncertaintyOfTheirPoses) {
+  Random random(4);
+  PointCloud floor;
+  PointCloud wall;
+  add_plate(floor, {1.0, -1.5, -1.0}, edges({2, 0, 0}, {0, 2.0, 0}), random);
+  add_plate(wall, {3.3, -1.5, -0.8}, edges({0, 3, 0}, {0, 0, 2}), random);
+  write("floor.pcd", floor);
+  write("wall.pcd", wall);
+  // The wall's scan may have turned by 1 mrad about any axis: so may the angle.
+  write_text("poses.toml",
+             "[[scan]]\nfile = 'floor.pcd'\n[[scan]]\nfile = 'wall.pcd'\ncovariance_m_rad = "
+             "[0,0,0,0,0,0, 0,0,0,0,0, 0,0,0,0, 1e-6,0,0, 1e-6,0, 1e-6]\n");
+  const auto sigma_of = [this](const std::string& line) {
+    return figures_of("angles " + line).at("angles").at(0).at("angle_sigma_deg").get<double>();
+  };
+  const double noise = sigma_of("floor.pcd wall.pcd");
+  EXPECT_LT(noise, 0.005);
+  const double turned = 0.001 * 180 / std::acos(-1.0);
+  EXPECT_NEAR(sigma_of("poses.toml"), std::hypot(turned, noise), 1e-4);
+  EXPECT_NEAR(sigma_of("poses.toml --voxel-mm 100"), turned, 1e-3);
+  EXPECT_EQ(figures_of("angles poses.toml").at("unsure_poses"), 1);
+}
+
 TEST_F(Measure, AZoneThatIsNeitherSquareNorParallelIsNullNotNan) {
   write("room.pcd", made_room());
   const ProgramRun measured =
