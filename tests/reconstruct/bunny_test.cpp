@@ -7,6 +7,7 @@
 #include <facula/reconstruct/mesh/meshing.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
 #include <facula/tests/support/matchers.hpp>
+#include <facula/tests/support/meshes.hpp>
 #include <facula/tests/support/real_data.hpp>
 
 #include <algorithm>
@@ -20,18 +21,6 @@ double quantile(std::vector<double> values, double share) {
   const auto rank = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
   std::nth_element(values.begin(), rank, values.end());
   return *rank;
-}
-
-/// Unit normals of the mesh's vertices, from its triangles by area.
-std::vector<Eigen::Vector3f> vertex_normals(const TriangleMesh& mesh) {
-  std::vector<Eigen::Vector3f> normals(mesh.vertices.size(), Eigen::Vector3f::Zero());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3f area =
-        (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
-    for (const auto v : {a, b, c}) normals[v] += area;
-  }
-  for (Eigen::Vector3f& n : normals) n.stableNormalize();
-  return normals;
 }
 
 TEST(Bunny, ScansLieOnThePublishedMeshWithThePublishedPoses) {

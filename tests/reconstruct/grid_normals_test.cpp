@@ -5,6 +5,7 @@
 #include <facula/reconstruct/filter/nearest_neighbours.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
 #include <facula/tests/support/matchers.hpp>
+#include <facula/tests/support/meshes.hpp>
 #include <facula/tests/support/real_data.hpp>
 
 #include <cmath>
@@ -87,18 +88,6 @@ TEST(GridNormals, RefuseAGridThatDoesNotFit) {
   EXPECT_THROW(grid_normals(cloud, {1, 2, {0}}), Error);
   EXPECT_THROW(grid_normals(cloud, {1, 1, {0}}, {.neighbours = 3}), Error);
   EXPECT_TRUE(grid_normals({}, {}).empty());
-}
-
-/// Normals of the published mesh's vertices, from its triangles by area.
-std::vector<Eigen::Vector3f> vertex_normals(const TriangleMesh& mesh) {
-  std::vector<Eigen::Vector3f> normals(mesh.vertices.size(), Eigen::Vector3f::Zero());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3f area =
-        (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
-    for (const auto v : {a, b, c}) normals[v] += area;
-  }
-  for (Eigen::Vector3f& n : normals) n.stableNormalize();
-  return normals;
 }
 
 TEST(GridNormals, OfAllTenBunnyScansAgreeWithThePublishedMesh) {

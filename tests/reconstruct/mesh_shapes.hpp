@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <facula/acquire/core/triangle_mesh.hpp>
+#include <facula/tests/support/meshes.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -46,27 +46,6 @@ inline TriangleMesh torus(double spine, double tube, std::uint32_t around, std::
                            tube * std::sin(b));
   };
   return grid_surface(around, across, at, true, true);
-}
-
-/// The box [0, a] x [0, b] x [0, c] of 12 triangles: bottom, top, front (y = 0), back, left, right.
-inline TriangleMesh box_mesh(float a, float b, float c) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    mesh.vertices.emplace_back((i & 1) != 0 ? a : 0, (i & 2) != 0 ? b : 0, (i & 4) != 0 ? c : 0);
-  }
-  mesh.triangles = {{0, 2, 1},
-                    {1, 2, 3},
-                    {4, 5, 6},
-                    {5, 7, 6},
-                    {0, 1, 4},
-                    {1, 5, 4},
-                    {2, 6, 3},
-                    {3, 6, 7},
-                    {0, 4, 2},
-                    {2, 4, 6},
-                    {1, 3, 5},
-                    {3, 7, 5}};
-  return mesh;
 }
 
 /// An octahedron split `depth` times with its vertices on the sphere: 8 * 4^depth triangles.

@@ -2,33 +2,13 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/triangle_mesh.hpp>
 #include <facula/tests/support/matchers.hpp>
+#include <facula/tests/support/meshes.hpp>
 
 #include <cmath>
 #include <numbers>
 
 namespace facula {
 namespace {
-
-/// The box [0, a] x [0, b] x [0, c], closed, seen from outside.
-TriangleMesh box(float a, float b, float c) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    mesh.vertices.emplace_back((i & 1) != 0 ? a : 0, (i & 2) != 0 ? b : 0, (i & 4) != 0 ? c : 0);
-  }
-  mesh.triangles = {{0, 2, 1},
-                    {1, 2, 3},
-                    {4, 5, 6},
-                    {5, 7, 6},
-                    {0, 1, 4},
-                    {1, 5, 4},
-                    {2, 6, 3},
-                    {3, 6, 7},
-                    {0, 4, 2},
-                    {2, 4, 6},
-                    {1, 3, 5},
-                    {3, 7, 5}};
-  return mesh;
-}
 
 /// Rings of a sphere about the origin with a fan at each pole.
 TriangleMesh sphere(double radius, std::uint32_t rings, std::uint32_t sectors) {
@@ -62,7 +42,7 @@ TriangleMesh sphere(double radius, std::uint32_t rings, std::uint32_t sectors) {
 }
 
 TEST(TriangleMesh, MeasuresABox) {
-  const MeshStatistics s = mesh_statistics(box(1, 2, 3));
+  const MeshStatistics s = mesh_statistics(box_mesh(1, 2, 3));
   EXPECT_EQ(s.vertices, 8U);
   EXPECT_EQ(s.triangles, 12U);
   EXPECT_DOUBLE_EQ(s.area, 22);
@@ -82,7 +62,7 @@ TEST(TriangleMesh, MeasuresATetrahedron) {
 }
 
 TEST(TriangleMesh, CountsTheRimOfAnOpenBox) {
-  TriangleMesh open = box(1, 1, 1);
+  TriangleMesh open = box_mesh(1, 1, 1);
   open.triangles.erase(open.triangles.begin(), open.triangles.begin() + 2);
   const MeshStatistics s = mesh_statistics(open);
   EXPECT_EQ(s.boundary_edges, 4U);
@@ -91,7 +71,7 @@ TEST(TriangleMesh, CountsTheRimOfAnOpenBox) {
 }
 
 TEST(TriangleMesh, FindsTheEdgeOfAFin) {
-  TriangleMesh fin = box(1, 1, 1);
+  TriangleMesh fin = box_mesh(1, 1, 1);
   fin.vertices.emplace_back(2, 2, 2);
   fin.triangles.push_back({0, 1, 8});
   const MeshStatistics s = mesh_statistics(fin);
@@ -102,8 +82,8 @@ TEST(TriangleMesh, FindsTheEdgeOfAFin) {
 }
 
 TEST(TriangleMesh, CountsPiecesThatShareNoEdge) {
-  TriangleMesh two = box(1, 1, 1);
-  const TriangleMesh other = box(2, 2, 2);
+  TriangleMesh two = box_mesh(1, 1, 1);
+  const TriangleMesh other = box_mesh(2, 2, 2);
   for (const auto& v : other.vertices) two.vertices.emplace_back(v + Eigen::Vector3f(9, 0, 0));
   for (const auto& t : other.triangles) two.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
   const MeshStatistics s = mesh_statistics(two);
@@ -125,14 +105,14 @@ TEST(TriangleMesh, KeepsItsVolumeWhenMoved) {
   RigidTransform pose;
   pose.rotation = Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized());
   pose.translation = {4, 5, 6};
-  EXPECT_NEAR(mesh_statistics(transformed(box(1, 2, 3), pose)).volume, 6, 1e-4);
+  EXPECT_NEAR(mesh_statistics(transformed(box_mesh(1, 2, 3), pose)).volume, 6, 1e-4);
 }
 
 TEST(TriangleMesh, CheckNamesTheVertexThatIsNotThere) {
-  TriangleMesh mesh = box(1, 1, 1);
+  TriangleMesh mesh = box_mesh(1, 1, 1);
   mesh.triangles.push_back({0, 1, 8});
   EXPECT_NE(error_of([&] { mesh.check(); }).find("vertex 8"), std::string::npos);
-  mesh = box(1, 1, 1);
+  mesh = box_mesh(1, 1, 1);
   mesh.colors.resize(3);
   EXPECT_THROW(mesh.check(), Error);
 }

@@ -2,6 +2,7 @@
 #include <facula/acquire/core/random.hpp>
 #include <facula/acquire/simulate/scene.hpp>
 #include <facula/tests/support/matchers.hpp>
+#include <facula/tests/support/meshes.hpp>
 #include <facula/tests/support/real_data.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
 
@@ -45,24 +46,9 @@ Vector3d random_direction(Random& random) {
 
 // A cuboid out of twelve triangles.
 MeshShape cuboid_mesh(const Vector3d& size) {
-  MeshShape shape;
-  for (int i = 0; i < 8; ++i) {
-    const Vector3d corner(
-        (i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5, (i & 4) != 0 ? 0.5 : -0.5);
-    shape.mesh.vertices.emplace_back(corner.cwiseProduct(size).cast<float>());
-  }
-  shape.mesh.triangles = {{0, 2, 1},
-                          {1, 2, 3},
-                          {4, 5, 6},
-                          {5, 7, 6},
-                          {0, 1, 4},
-                          {1, 5, 4},
-                          {2, 6, 3},
-                          {3, 6, 7},
-                          {0, 4, 2},
-                          {2, 4, 6},
-                          {1, 3, 5},
-                          {3, 7, 5}};
+  const Eigen::Vector3f edges = size.cast<float>();
+  MeshShape shape{box_mesh(edges.x(), edges.y(), edges.z())};
+  for (Eigen::Vector3f& vertex : shape.mesh.vertices) vertex -= edges / 2;
   return shape;
 }
 
