@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 #include <tuple>
 
 namespace facula {
@@ -32,7 +33,7 @@ PointCloud one_ray_per_cell(const PointCloud& cloud, double resolution) {
                        std::bit_cast<std::uint32_t>(origin.y()),
                        std::bit_cast<std::uint32_t>(origin.z())}});
     } else {
-      result.points.push_back(cloud.points[i]);
+      result.points.push_back(Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
       result.sensor_origin.push_back(origin);
     }
   }

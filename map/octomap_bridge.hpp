@@ -14,7 +14,7 @@
 
 namespace facula {
 
-// For programs that use OctoMap themselves, and link it: Facula's own libraries do not.
+// For programs that use OctoMap themselves, and link it.
 
 /// OctoMap's tree with this map's cells and sensor model.
 inline std::unique_ptr<octomap::OcTree> to_octomap(const OccupancyMap& map) {
