@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/atomic_file.hpp>
 #include <facula/acquire/core/error.hpp>
+#include <facula/map/map_file.hpp>
 #include <facula/map/occupancy_map.hpp>
 #include <facula/map/octree_file.hpp>
 #include <facula/map/pruned_octree.hpp>
@@ -140,16 +141,19 @@ void OccupancyMap::for_each_brick(const std::function<void(const BrickView&)>& v
 
 void OccupancyMap::write(const std::filesystem::path& path) const {
   const std::string extension = path.extension().string();
+  if (extension == ".fmap") return write_map_file(path, *this);
   require(extension == ".ot" || extension == ".bt",
           "cannot write the map '",
           path.string(),
-          "': expected a name ending in .ot (probabilities) or .bt (free or occupied)");
+          "': expected a name ending in .ot (probabilities), .bt (free or occupied) or .fmap "
+          "(everything)");
   AtomicFile file(path);
   (extension == ".bt" ? write_bt : write_ot)(file.stream(), bricks_, options_.resolution);
   file.commit();
 }
 
 OccupancyMap OccupancyMap::read(const std::filesystem::path& path) {
+  if (is_map_file(path)) return read_map_file(path).map;
   OctreeContent content = read_octree(path, OccupancyOptions().model());
   OccupancyMap map({.resolution = content.resolution});
   map.bricks_ = std::move(content.map);

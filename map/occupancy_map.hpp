@@ -89,11 +89,13 @@ class OccupancyMap {
   /// Calls visit for every brick with a known cell, in Morton order.
   void for_each_brick(const std::function<void(const BrickView&)>& visit) const;
 
-  /// Writes .ot (probabilities) or .bt (free or occupied), whole or not at all.
+  /// Writes .ot (probabilities), .bt (free or occupied) or .fmap (map_file.hpp), whole or not at
+  /// all.
   void write(const std::filesystem::path& path) const;
 
-  /// Reads .ot or .bt, whichever the file's first line says. Options other than the resolution are
-  /// the defaults. Throws Error when the file is missing, torn, or not an OcTree.
+  /// Reads .ot, .bt or .fmap, whichever the file's first line says. Options other than the
+  /// resolution are the defaults, but for .fmap, which has them. Throws Error when the file is
+  /// missing, torn, or none of these.
   static OccupancyMap read(const std::filesystem::path& path);
 
   LogOddsMap& bricks() { return bricks_; }
