@@ -56,9 +56,9 @@ bool small_run() {
   return std::getenv("FACULA_BENCH_SMALL") != nullptr;
 }
 
-PolarScan room_scan(int stand) {
-  const int rows = small_run() ? 50 : 500;
-  const int cols = small_run() ? 100 : 1000;
+PolarScan room_scan(int stand, const RoomGrid& grid) {
+  const int rows = small_run() ? grid.rows / 10 : grid.rows;
+  const int cols = small_run() ? grid.cols / 10 : grid.cols;
   PolarScan scan = PolarScan::empty(rows, cols);
   scan.world_from_scan = room_from_head(stand);
   Random random(1, static_cast<std::uint64_t>(stand));
@@ -77,8 +77,8 @@ PolarScan room_scan(int stand) {
   return scan;
 }
 
-PointCloud room_cloud(int stand) {
-  const PolarScan scan = room_scan(stand);
+PointCloud room_cloud(int stand, const RoomGrid& grid) {
+  const PolarScan scan = room_scan(stand, grid);
   return transformed(cloud_from_scan(scan), scan.world_from_scan);
 }
 

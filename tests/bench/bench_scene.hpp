@@ -13,13 +13,19 @@ namespace facula {
 /// runs.
 bool small_run();
 
-/// A closed-form room of 8 x 6 x 3 m with four boxes, seen by a head that turns once. 500 rows and
-/// 1000 columns, ranges with 2 mm noise, origin in the middle of the head. `stand` is 0, 1 or 2:
-/// three places, each turned differently.
-PolarScan room_scan(int stand);
+/// Rays of a scan of the room: 500 000 unless asked otherwise.
+struct RoomGrid {
+  int rows = 500;
+  int cols = 1000;
+};
+
+/// A closed-form room of 8 x 6 x 3 m with four boxes, seen by a head that turns once. Ranges with 2
+/// mm noise, origin in the middle of the head. `stand` is 0, 1 or 2: three places, each turned
+/// differently. In a small run a hundredth of the rays.
+PolarScan room_scan(int stand, const RoomGrid& grid = {});
 
 /// The scan in the room's frame, seen from a single origin.
-PointCloud room_cloud(int stand);
+PointCloud room_cloud(int stand, const RoomGrid& grid = {});
 
 /// Grey frames with an upright Gaussian line (2 px, 120 DN) over noise of 2 DN; the line bends and
 /// moves from frame to frame.
