@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/reconstruct/filter/distinct_points.hpp>
 #include <facula/reconstruct/filter/nearest_neighbours.hpp>
 #include <facula/reconstruct/filter/sampling_distance.hpp>
 #include <facula/reconstruct/mesh/mesh_engines.hpp>
 #include <facula/reconstruct/mesh/orient_mesh.hpp>
 
 #include <algorithm>
-#include <tuple>
 
 #include <Eigen/Eigenvalues>
 
@@ -31,23 +31,6 @@ void require_wide(const std::vector<Eigen::Vector3f>& points) {
           " points lie on one line or in one spot, so they hold no surface");
 }
 
-/// The indices without those of points that stand where an earlier one does.
-std::vector<std::size_t> distinct(const std::vector<Eigen::Vector3f>& points,
-                                  std::vector<std::size_t> indices) {
-  const auto place = [&](std::size_t i) {
-    return std::make_tuple(points[i].x(), points[i].y(), points[i].z());
-  };
-  std::sort(indices.begin(), indices.end(), [&](std::size_t a, std::size_t b) {
-    return std::make_tuple(place(a), a) < std::make_tuple(place(b), b);
-  });
-  const auto last = std::unique(indices.begin(), indices.end(), [&](std::size_t a, std::size_t b) {
-    return points[a] == points[b];
-  });
-  indices.erase(last, indices.end());
-  std::sort(indices.begin(), indices.end());
-  return indices;
-}
-
 Eigen::Vector3f outward_at(const PointCloud& cloud, std::size_t point) {
   if (cloud.sensor_origin.empty()) return cloud.normals[point];
   return cloud.sensor_origin[point] - cloud.points[point];
@@ -57,15 +40,12 @@ Eigen::Vector3f outward_at(const PointCloud& cloud, std::size_t point) {
 
 PointCloud surface_points(const PointCloud& cloud) {
   cloud.check();
-  std::vector<std::size_t> finite;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.points[i].allFinite()) finite.push_back(i);
-  }
-  require(finite.size() >= 4,
+  const std::vector<std::size_t> distinct = distinct_points(cloud.points);
+  require(distinct.size() >= 4,
           "a surface needs at least 4 points, the cloud has ",
-          finite.size(),
-          " that are finite");
-  PointCloud points = selected(cloud, distinct(cloud.points, finite));
+          distinct.size(),
+          " that are finite and apart");
+  PointCloud points = selected(cloud, distinct);
   require_wide(points.points);
   return points;
 }

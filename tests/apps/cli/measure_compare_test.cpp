@@ -53,6 +53,24 @@ TEST_F(Measure, CompareToPointsWithoutASurfaceGivesDistancesAndSaysSo) {
   }
 }
 
+TEST_F(Measure, CompareTakesManyPointsInOnePlaceAsOne) {
+  // A plate at right angles to the line of sight, 3 mm behind the points.
+  std::vector<Eigen::Vector3f> plate;
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 400; ++i) {
+    const float y = 0.01F * static_cast<float>(i % 20);
+    const float z = 0.01F * static_cast<float>(i / 20);
+    plate.insert(plate.end(), 30, {2, y, z});
+    points.emplace_back(1.997F, y + 0.002F, z + 0.004F);
+  }
+  write("plate.pcd", points_alone(plate));
+  write("points.pcd", points_alone(points));
+  const Json figures = figures_of("compare points.pcd --to plate.pcd");
+  EXPECT_EQ(figures.at("has_sign"), true);
+  EXPECT_NEAR(figures.at("least_mm").get<double>(), 3, 1e-2);
+  EXPECT_NEAR(figures.at("most_mm").get<double>(), 3, 1e-2);
+}
+
 TEST_F(Measure, TheHistogramHoldsEveryPointThatWasCompared) {
   write("room.pcd", made_room());
   PointCloud stray = made_room();
