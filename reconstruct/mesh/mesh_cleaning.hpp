@@ -4,6 +4,8 @@
 #include <facula/acquire/core/triangle_mesh.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace facula {
 
@@ -30,6 +32,7 @@ TriangleMesh repaired(const TriangleMesh& mesh, RepairCounts* counts = nullptr);
 struct IslandOptions {
   bool keep_largest = false;  ///< only the piece of the largest area
   double min_diameter = 0;    ///< pieces whose box has a shorter diagonal go [m]
+  double min_area = 0;        ///< pieces of a smaller share of the largest one's area go [1]
 
   void check() const;
 };
@@ -69,6 +72,9 @@ TriangleMesh simplified(const TriangleMesh& mesh, const SimplifyOptions& options
 /// Smoothed by so many pairs of steps, one inwards and one outwards, which damps noise and keeps
 /// volume (Taubin 1995: lambda 0.5, pass band 0.1); vertices of the boundary stay. 0 = unchanged.
 TriangleMesh smoothed(const TriangleMesh& mesh, int steps, int num_threads = 0);
+
+/// Removes the triangles that are marked with 1, keeps all vertices; returns how many went.
+std::size_t remove_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked);
 
 /// The mesh over those of its vertices that a triangle uses.
 TriangleMesh compacted(const TriangleMesh& mesh);

@@ -36,6 +36,7 @@ void IslandOptions::check() const {
           "min_diameter is ",
           min_diameter,
           " m; give 0 or more");
+  require(min_area >= 0 && min_area <= 1, "min_area is ", min_area, "; give a share of 0 to 1");
 }
 
 TriangleMesh without_islands(const TriangleMesh& mesh,
@@ -48,26 +49,38 @@ TriangleMesh without_islands(const TriangleMesh& mesh,
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     const std::uint32_t piece = pieces.of_triangle[t];
-    const Eigen::Vector3f& corner = mesh.vertices[a];
-    area[piece] += (mesh.vertices[b] - corner).cross(mesh.vertices[c] - corner).norm();
+    const Eigen::Vector3d corner = mesh.vertices[a].cast<double>();
+    area[piece] += (mesh.vertices[b].cast<double>() - corner)
+                       .cross(mesh.vertices[c].cast<double>() - corner)
+                       .norm();
     for (const std::uint32_t v : {a, b, c}) box[piece].extend(mesh.vertices[v]);
   }
   const auto largest =
       static_cast<std::size_t>(std::max_element(area.begin(), area.end()) - area.begin());
   const auto stays = [&](std::size_t piece) {
     if (options.keep_largest && piece != largest) return false;
-    return box[piece].diagonal().norm() >= options.min_diameter;
+    return box[piece].diagonal().norm() >= options.min_diameter &&
+           area[piece] >= options.min_area * area[largest];
   };
+  std::vector<std::uint8_t> marked(mesh.triangles.size());
+  for (std::size_t t = 0; t < marked.size(); ++t) marked[t] = stays(pieces.of_triangle[t]) ? 0 : 1;
   TriangleMesh rest = mesh;
-  rest.triangles.clear();
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (stays(pieces.of_triangle[t])) rest.triangles.push_back(mesh.triangles[t]);
-  }
+  remove_triangles(rest, marked);
   if (removed != nullptr) {
     *removed = 0;
     for (std::size_t piece = 0; piece < pieces.count; ++piece) *removed += stays(piece) ? 0 : 1;
   }
   return compacted(rest);
+}
+
+std::size_t remove_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (marked[t] == 0) mesh.triangles[kept++] = mesh.triangles[t];
+  }
+  const std::size_t removed = mesh.triangles.size() - kept;
+  mesh.triangles.resize(kept);
+  return removed;
 }
 
 TriangleMesh compacted(const TriangleMesh& mesh) {

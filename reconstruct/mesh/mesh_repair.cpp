@@ -21,17 +21,6 @@ double area_of(const TriangleMesh& mesh, std::size_t triangle) {
          2;
 }
 
-/// Removes the triangles that are marked; returns how many.
-std::size_t remove_marked(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (marked[t] == 0) mesh.triangles[kept++] = mesh.triangles[t];
-  }
-  const std::size_t removed = mesh.triangles.size() - kept;
-  mesh.triangles.resize(kept);
-  return removed;
-}
-
 std::vector<std::uint8_t> doubles_of(const TriangleMesh& mesh) {
   std::vector<std::pair<TriangleMesh::Triangle, std::size_t>> sorted;
   sorted.reserve(mesh.triangles.size());
@@ -177,15 +166,15 @@ std::size_t split_fans(TriangleMesh& mesh) {
 TriangleMesh repaired(const TriangleMesh& mesh, RepairCounts* counts) {
   TriangleMesh result = mesh;
   RepairCounts done;
-  done.bad_triangles = remove_marked(result, triangles_without_area(result));
-  done.double_triangles = remove_marked(result, doubles_of(result));
+  done.bad_triangles = remove_triangles(result, triangles_without_area(result));
+  done.double_triangles = remove_triangles(result, doubles_of(result));
   // Without the extra triangles of one edge another edge may hang on to two only.
-  done.crowded_triangles = remove_marked(result, crowding(result, mesh_topology(result)));
+  done.crowded_triangles = remove_triangles(result, crowding(result, mesh_topology(result)));
   const MeshTopology topology = mesh_topology(result);
   std::vector<std::uint8_t> misfits(result.triangles.size(), 0);
   if (topology.turned_edges > 0) {
     done.turned_triangles = Turner(result, topology).turn(misfits);
-    done.crowded_triangles += remove_marked(result, misfits);
+    done.crowded_triangles += remove_triangles(result, misfits);
   }
   done.split_vertices = split_fans(result);
   if (counts != nullptr) *counts = done;

@@ -2,8 +2,6 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/reconstruct/mesh/mesh_cleaning.hpp>
 #include <facula/reconstruct/mesh/mesh_engines.hpp>
-#include <facula/reconstruct/mesh/mesh_pieces.hpp>
-#include <facula/reconstruct/mesh/orient_mesh.hpp>
 #include <facula/reconstruct/mesh/watertight.hpp>
 
 #include <algorithm>
@@ -11,34 +9,8 @@
 #include <limits>
 #include <sstream>
 
-#include <Eigen/Geometry>
-
 namespace facula {
 namespace {
-
-double area_of(const TriangleMesh& mesh, const TriangleMesh::Triangle& t) {
-  const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>();
-  return (mesh.vertices[t[1]].cast<double>() - a)
-      .cross(mesh.vertices[t[2]].cast<double>() - a)
-      .norm();
-}
-
-/// Without pieces of less than `share` of the largest one's area.
-TriangleMesh without_crumbs(const TriangleMesh& mesh, double share, std::size_t& removed) {
-  const MeshPieces pieces = mesh_pieces(mesh);
-  std::vector<double> area(pieces.count, 0);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    area[pieces.of_triangle[t]] += area_of(mesh, mesh.triangles[t]);
-  }
-  const double least = area.empty() ? 0 : share * *std::max_element(area.begin(), area.end());
-  TriangleMesh rest = mesh;
-  rest.triangles.clear();
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (area[pieces.of_triangle[t]] >= least) rest.triangles.push_back(mesh.triangles[t]);
-  }
-  for (const double a : area) removed += a < least ? 1 : 0;
-  return compacted(rest);
-}
 
 /// Takes away the triangles of the pairs and those within `rings` vertices of them.
 std::size_t cut_out(TriangleMesh& mesh,
@@ -56,20 +28,16 @@ std::size_t cut_out(TriangleMesh& mesh,
       for (const std::uint32_t v : mesh.triangles[t]) gone[t] |= near[v];
     }
   }
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < gone.size(); ++t) {
-    if (gone[t] == 0) mesh.triangles[kept++] = mesh.triangles[t];
-  }
-  const std::size_t removed = mesh.triangles.size() - kept;
-  mesh.triangles.resize(kept);
-  return removed;
+  return remove_triangles(mesh, gone);
 }
 
 TriangleMesh filled(const TriangleMesh& mesh,
                     const WatertightOptions& o,
                     WatertightResult& result) {
+  std::size_t pieces = 0;
   const TriangleMesh sound =
-      repaired(without_crumbs(repaired(mesh), o.least_piece, result.pieces_removed));
+      repaired(without_islands(repaired(mesh), {.min_area = o.least_piece}, &pieces));
+  result.pieces_removed += pieces;
   std::size_t holes = 0;
   TriangleMesh closed = fill_holes(sound, std::numeric_limits<double>::infinity(), &holes);
   result.holes_filled += holes;
