@@ -5,7 +5,9 @@
 #include <facula/reconstruct/mesh/sight_prism.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
+#include <sstream>
 
 namespace facula {
 namespace {
@@ -15,15 +17,33 @@ constexpr int kKeyOffset = 1 << (kKeyBits - 1);
 constexpr std::size_t kTrianglesPerChunk = 4096;
 constexpr std::size_t kBricksPerChunk = 16;
 
-[[noreturn]] void fail_for_memory(double bytes, const DistanceVolumeOptions& options) {
-  fail("voxels of ",
-       options.voxel * 1e3,
-       " mm about these scans need more than ",
-       bytes * 1e-9,
-       " GB, where ",
-       options.max_memory * 1e-9,
-       " GB are allowed; take larger voxels, allow more, or merge in blocks");
+[[noreturn]] void fail_for_memory(const DistanceVolumeOptions& options) {
+  std::ostringstream sentence;
+  sentence << "voxels of " << options.voxel * 1e3
+           << " mm about these scans need more memory, where " << options.max_memory * 1e-9
+           << " GB are allowed; take larger voxels or allow more";
+  throw VolumeMemoryError(sentence.str());
 }
+
+/// Counts what the threads list, and stops them where it is more than the memory holds.
+class ListedBytes {
+ public:
+  explicit ListedBytes(const DistanceVolumeOptions& options) : options_(options) {}
+
+  /// Throws where a list of `bytes` beside those that are complete would be too much.
+  void expect(double bytes) const {
+    if (bytes + static_cast<double>(complete_) > options_.max_memory) fail_for_memory(options_);
+  }
+
+  void complete(std::size_t bytes) {
+    expect(static_cast<double>(bytes));
+    complete_ += bytes;
+  }
+
+ private:
+  const DistanceVolumeOptions& options_;
+  std::atomic<std::size_t> complete_{0};
+};
 
 void check_extent(const RangeSurface& surface, double voxel) {
   const double most = voxel * (kKeyOffset - 2) * kBrickSide;
@@ -67,7 +87,7 @@ std::uint32_t DistanceVolume::find_or_add(std::uint64_t key) {
   const auto [entry, is_new] = index_.try_emplace(key, static_cast<std::uint32_t>(bricks_.size()));
   if (is_new) {
     const double bytes = static_cast<double>((bricks_.size() + 1) * (sizeof(Brick) + 64));
-    if (bytes > options_.max_memory) fail_for_memory(bytes, options_);
+    if (bytes > options_.max_memory || bricks_.size() >= kMostBricks) fail_for_memory(options_);
     bricks_.emplace_back();
     places_.push_back(brick_place(key));
   }
@@ -81,19 +101,19 @@ std::vector<std::vector<DistanceVolume::Visit>> DistanceVolume::visits_of(
   const auto truncation = static_cast<float>(options_.truncation / options_.voxel);
   const std::size_t count = surface.triangles.size();
   std::vector<std::vector<Visit>> visits(count / kTrianglesPerChunk + 1);
-  const double most_visits = options_.max_memory / sizeof(Visit);
+  ListedBytes listed(options_);
   const auto list = [&](std::size_t begin, std::size_t end) {
     auto& out = visits[begin / kTrianglesPerChunk];
     for (std::size_t t = begin; t < end; ++t) {
       const SightPrism prism(surface, surface.triangles[t], options_.voxel, truncation);
       if (!prism.usable()) continue;
-      const double after = static_cast<double>(out.size()) + prism.bricks_at_most();
-      if (after > most_visits) fail_for_memory(after * sizeof(Visit), options_);
+      listed.expect(sizeof(Visit) * (static_cast<double>(out.size()) + prism.bricks_at_most()));
       prism.visit_bricks([&](const BrickPlace& place) {
         if (options_.box && !options_.box->holds(place)) return;
         out.push_back({brick_key(place), static_cast<std::uint32_t>(t)});
       });
     }
+    listed.complete(sizeof(Visit) * out.size());
   };
   parallel_for(count, list, {.num_threads = options_.num_threads, .chunk = kTrianglesPerChunk});
   return visits;
@@ -162,18 +182,19 @@ std::vector<std::uint64_t> bricks_of(const RangeSurface& surface,
   const auto truncation = static_cast<float>(options.truncation / options.voxel);
   const std::size_t count = surface.triangles.size();
   std::vector<std::vector<std::uint64_t>> parts(count / kTrianglesPerChunk + 1);
-  const double most = options.max_memory / sizeof(std::uint64_t);
+  ListedBytes listed(options);
   const auto list = [&](std::size_t begin, std::size_t end) {
     auto& out = parts[begin / kTrianglesPerChunk];
     for (std::size_t t = begin; t < end; ++t) {
       const SightPrism prism(surface, surface.triangles[t], options.voxel, truncation);
       if (!prism.usable()) continue;
       const double after = static_cast<double>(out.size()) + prism.bricks_at_most();
-      if (after > most) fail_for_memory(after * sizeof(std::uint64_t), options);
+      listed.expect(kBytesPerPlace * after);
       prism.visit_bricks([&out](const BrickPlace& place) { out.push_back(brick_key(place)); });
     }
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
+    listed.complete(kBytesPerPlace * out.size());
   };
   parallel_for(count, list, {.num_threads = options.num_threads, .chunk = kTrianglesPerChunk});
   std::vector<std::uint64_t> keys;

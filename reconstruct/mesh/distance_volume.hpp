@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <facula/acquire/core/error.hpp>
 #include <facula/reconstruct/mesh/range_surface.hpp>
 
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -18,6 +20,14 @@ namespace facula {
 /// sample at voxel * (i, j, k) in the world frame.
 constexpr int kBrickSide = 8;
 constexpr int kBrickVoxels = kBrickSide * kBrickSide * kBrickSide;
+
+/// A volume holds so many at most: the edges of their voxels are numbered in 32 bits.
+constexpr std::size_t kMostBricks = std::numeric_limits<std::uint32_t>::max() / (3 * kBrickVoxels);
+
+/// The voxels asked for need more memory than allowed: merge_volumetric_in_blocks() takes less.
+class VolumeMemoryError : public Error {
+  using Error::Error;
+};
 
 /// Place of a brick in units of bricks.
 using BrickPlace = Eigen::Vector3i;
@@ -62,8 +72,9 @@ class DistanceVolume {
   explicit DistanceVolume(const DistanceVolumeOptions& options) : options_(options) {}
 
   /// Adds one scan. Scans count in the order they are added, triangles in theirs, for every voxel:
-  /// the sums do not depend on the number of threads, nor on the box. Throws Error when the memory
-  /// does not suffice, or when the scan reaches beyond what voxels of this size can number.
+  /// the sums do not depend on the number of threads, nor on the box. Throws VolumeMemoryError when
+  /// the memory does not suffice, Error when the scan reaches beyond what voxels of this size can
+  /// number.
   void add(const RangeSurface& surface);
 
   std::size_t size() const { return bricks_.size(); }
@@ -97,8 +108,11 @@ class DistanceVolume {
   std::deque<Brick> bricks_;
 };
 
+/// What a brick costs before it holds voxels: its key in several lists, its place in others [byte].
+constexpr std::size_t kBytesPerPlace = 40;
+
 /// Keys of the bricks that the band about a surface meets, each once, in ascending order. Throws
-/// Error as DistanceVolume::add() does.
+/// Error as DistanceVolume::add() does, where kBytesPerPlace for each are more than max_memory.
 std::vector<std::uint64_t> bricks_of(const RangeSurface& surface,
                                      const DistanceVolumeOptions& options);
 

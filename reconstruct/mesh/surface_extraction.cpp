@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/reconstruct/mesh/marching_table.hpp>
 #include <facula/reconstruct/mesh/surface_extraction.hpp>
@@ -216,10 +215,7 @@ class Extraction {
 
 ExtractedSurface extract_surface(const DistanceVolume& volume,
                                  const SurfaceExtractionOptions& options) {
-  require(volume.size() < std::numeric_limits<std::uint32_t>::max() / kEdgesPerBrick,
-          "a surface is to be drawn from ",
-          volume.size(),
-          " bricks of voxels, more than can be numbered; take larger voxels or merge in blocks");
+  static_assert(kMostBricks <= std::numeric_limits<std::uint32_t>::max() / kEdgesPerBrick);
   return Extraction(volume, options).run();
 }
 

@@ -62,9 +62,12 @@ class BlockMerge {
     choose_voxel();
     const SceneBricks scene = find_bricks();
     const double most_bricks = kShareOfVoxels * options_.max_memory / sizeof(Brick);
-    const auto most = static_cast<std::size_t>(std::clamp(most_bricks, 1.0, 1e9));
-    for (const BrickBlock& block : split_into_blocks(scene.places, most)) {
+    const auto most =
+        static_cast<std::size_t>(std::clamp(most_bricks, 1.0, static_cast<double>(kMostBricks)));
+    const std::vector<BrickBlock> blocks = split_into_blocks(scene.places, most);
+    for (const BrickBlock& block : blocks) {
       merge_block(block, scene);
+      if (options_.progress) options_.progress(result_.blocks, blocks.size());
     }
     return result_;
   }
@@ -109,6 +112,12 @@ class BlockMerge {
       std::vector<std::uint64_t> both;
       std::set_union(all.begin(), all.end(), keys.begin(), keys.end(), std::back_inserter(both));
       all = std::move(both);
+      require(static_cast<double>(kBytesPerPlace * all.size()) <= options_.max_memory,
+              "voxels of ",
+              1e3 * result_.voxel,
+              " mm are so many that ",
+              1e-9 * options_.max_memory,
+              " GB do not hold their places; take larger voxels or allow more");
     }
     require(!all.empty(), "none of the ", source_.count, " scans has a surface to merge");
     for (const std::uint64_t key : all) scene.places.push_back(brick_place(key));

@@ -65,8 +65,10 @@ VolumetricResult merge_volumetric(const ScanProject& project, const VolumetricOp
                          .max_memory = options.max_memory,
                          .box = std::nullopt,
                          .num_threads = options.num_threads});
+  std::size_t done = 0;
   for (const RangeSurface& surface : surfaces) {
     volume.add(surface);
+    if (options.progress) options.progress(++done, surfaces.size());
     result.range_triangles += surface.triangles.size();
     result.skipped_points += surface.skipped_points;
   }

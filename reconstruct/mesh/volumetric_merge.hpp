@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <facula/acquire/core/progress.hpp>
 #include <facula/acquire/core/triangle_mesh.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
 
@@ -18,6 +19,7 @@ struct VolumetricOptions {
   double border_cells = 6;     ///< weights fade over so many cells towards a scan's border [1]
   double max_memory = 3e9;     ///< voxels and lists may take so much [byte]
   int num_threads = 0;         ///< 0 = all cores [1]
+  Progress progress = {};      ///< by scans, or by blocks where it is merged in blocks
 
   void check() const;
 };
@@ -40,8 +42,8 @@ struct VolumetricResult {
 /// what no scan saw stays open. The mesh is manifold but for single vertices at its borders, and
 /// the same bit for bit for every number of threads. Lines of sight come from sensor_origin, else
 /// from the normals (estimated towards the scan frame's origin where missing).
-/// Throws Error when no scan has a surface, and when the voxels asked for need more than
-/// max_memory (see merge_volumetric_in_blocks()).
+/// Throws Error when no scan has a surface, VolumeMemoryError when the voxels asked for need more
+/// than max_memory (see merge_volumetric_in_blocks()).
 VolumetricResult merge_volumetric(const ScanProject& project,
                                   const VolumetricOptions& options = {});
 
