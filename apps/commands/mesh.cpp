@@ -2,23 +2,33 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/mesh_file.hpp>
 #include <facula/acquire/core/scan_file.hpp>
+#include <facula/acquire/core/whole_file.hpp>
 #include <facula/apps/cli/file_kind.hpp>
 #include <facula/apps/cli/output_path.hpp>
 #include <facula/apps/commands/distance_figures.hpp>
+#include <facula/apps/commands/machine_memory.hpp>
 #include <facula/apps/commands/mesh.hpp>
 #include <facula/apps/commands/mesh_figures.hpp>
+#include <facula/apps/commands/mesh_in_blocks.hpp>
 #include <facula/apps/commands/mesh_steps.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
 #include <facula/reconstruct/filter/outlier_filters.hpp>
 #include <facula/reconstruct/filter/scan_filters.hpp>
+#include <facula/reconstruct/mesh/distance_volume.hpp>
 #include <facula/reconstruct/mesh/mesh_exchange.hpp>
 #include <facula/reconstruct/mesh/mesh_method.hpp>
 #include <facula/reconstruct/mesh/meshing.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace facula {
 namespace {
+
+constexpr Unit kGigabytes{"GB", 1e9};
+constexpr double kShareOfMachine = 0.75;  // where --memory-gb says nothing; scans take the rest
+// Cleaning and judging a mesh take some four times as much as the volume it comes from.
+constexpr double kShareOfVolume = 0.2;
 
 struct MeshArguments {
   std::vector<std::filesystem::path> scans;
@@ -26,6 +36,7 @@ struct MeshArguments {
   std::string method = "auto";
   double voxel = 0;     ///< 0 = chosen from the sampling [m]
   double max_edge = 0;  ///< 0 = the method's own [m]
+  double memory = 0;    ///< 0 = a share of the machine's [byte]
   bool no_filter = false;
   MeshStepArguments steps;
   std::filesystem::path compare;
@@ -58,6 +69,11 @@ void declare(Arguments& arguments, MeshArguments& a) {
       "--max-edge-mm", a.max_edge, kMillimetres, "longest edge, 0 = chosen from the points");
   arguments.flag("--no-filter", a.no_filter, "keep mixed points and outliers");
   declare_mesh_steps(arguments, a.steps);
+  arguments.number("--memory-gb",
+                   a.memory,
+                   kGigabytes,
+                   "a volumetric mesh that needs more is merged in blocks and written to a .ply as "
+                   "it comes, without steps and verdict; 0 = three quarters of the machine's");
   arguments.input("--compare", a.compare, "a reference mesh in metres: report distances to it");
 }
 
@@ -111,7 +127,31 @@ ScanProject without_outliers(const ScanProject& project, int num_threads, Figure
   return result;
 }
 
-Made make_mesh(const MeshArguments& a, Session& session) {
+double memory_of(const MeshArguments& a) {
+  return a.memory > 0 ? a.memory : kShareOfMachine * machine_memory();
+}
+
+/// What the memory does not hold can be merged and written piece by piece, but nothing more.
+void mesh_beyond_memory(const MeshArguments& a, const ScanProject& project, Session& session) {
+  const bool only_merge = !asks_for_steps(a.steps) && a.compare.empty();
+  require(only_merge && a.out.size() == 1 && lower_extension(a.out.front()) == ".ply",
+          "expected one .ply and no step for a mesh that needs more than ",
+          1e-9 * memory_of(a),
+          " GB, since it is written as it comes; leave out ",
+          only_merge ? "the other outputs" : "the steps and --compare",
+          ", take a larger --voxel-mm, or allow more by --memory-gb");
+  session.end_steps();
+  mesh_in_blocks(project,
+                 {.voxel = a.voxel,
+                  .max_memory = memory_of(a),
+                  .num_threads = session.num_threads,
+                  .progress = session.progress("merging in blocks")},
+                 a.out.front(),
+                 session.figures);
+}
+
+/// Nothing where the mesh was larger than the memory and has been written.
+std::optional<Made> make_mesh(const MeshArguments& a, Session& session) {
   if (a.method == "grid") return grid_mesh(a, session.figures);
   ScanProject project = cleaned_scans(a, session);
   const MeshMethod method = chosen_method(a, project, session.figures);
@@ -121,46 +161,56 @@ Made make_mesh(const MeshArguments& a, Session& session) {
     project = without_outliers(project, session.num_threads, session.figures);
   }
   session.step("meshing by " + to_string(method), 2, 4);
-  MeshedScans meshed =
-      mesh_scans(project,
-                 method,
-                 {.voxel = a.voxel, .max_edge = a.max_edge, .num_threads = session.num_threads});
+  MeshedScans meshed;
+  try {
+    meshed = mesh_scans(project,
+                        method,
+                        {.voxel = a.voxel,
+                         .max_edge = a.max_edge,
+                         .max_memory = kShareOfVolume * memory_of(a),
+                         .num_threads = session.num_threads});
+  } catch (const VolumeMemoryError&) {
+    mesh_beyond_memory(a, project, session);
+    return std::nullopt;
+  }
   if (meshed.voxel > 0) {
     session.figures.number(
         "voxel_mm", joins_points ? "points thinned to" : "voxel", 1000 * meshed.voxel, 3);
   }
-  return {std::move(meshed.mesh), project.fused(), joins_points ? 0 : meshed.voxel};
+  return Made{std::move(meshed.mesh), project.fused(), joins_points ? 0 : meshed.voxel};
 }
 
 void run(const MeshArguments& a, Session& session) {
   for (const auto& path : a.out) check_output(path, {".ply", ".obj", ".stl", ".off", ".glb"});
-  require(a.voxel >= 0 && a.max_edge >= 0,
-          "expected --voxel-mm and --max-edge-mm of 0 or more, "
-          "got ",
+  require(a.voxel >= 0 && a.max_edge >= 0 && a.memory >= 0,
+          "expected --voxel-mm, --max-edge-mm and --memory-gb of 0 or more, got ",
           1000 * a.voxel,
-          " and ",
+          ", ",
           1000 * a.max_edge,
+          " and ",
+          1e-9 * a.memory,
           "; leave them out for the defaults");
   check_mesh_steps(a.steps);
   // A reference that cannot be read shall not come to light after minutes of meshing.
   TriangleMesh reference;
   if (!a.compare.empty()) reference = read_any_mesh(a.compare);
-  Made made = make_mesh(a, session);
-  require(!made.mesh.empty(),
+  std::optional<Made> made = make_mesh(a, session);
+  if (!made) return;
+  require(!made->mesh.empty(),
           "expected a surface through the points, got no triangle; try a larger "
           "--max-edge-mm");
   session.step("cleaning and judging", 3, 4);
   MeshStepArguments steps = a.steps;
   steps.num_threads = session.num_threads;
   const MeshVerdict verdict =
-      run_mesh_steps(made.mesh, made.cloud, made.voxel, steps, session.figures);
-  for (const auto& path : a.out) write_mesh(path, made.mesh);
+      run_mesh_steps(made->mesh, made->cloud, made->voxel, steps, session.figures);
+  for (const auto& path : a.out) write_mesh(path, made->mesh);
   report_verdict(verdict, session.figures);
   if (a.compare.empty()) return;
   session.step("comparing", 4, 4);
-  report_distances(distances_to_mesh(made.mesh.vertices, reference, session.num_threads),
+  report_distances(distances_to_mesh(made->mesh.vertices, reference, session.num_threads),
                    session.figures.part("compare", "Distance of vertices to the reference:"));
-  report_distances(distances_to_mesh(reference.vertices, made.mesh, session.num_threads),
+  report_distances(distances_to_mesh(reference.vertices, made->mesh, session.num_threads),
                    session.figures.part("compare_back", "Distance of the reference's vertices:"));
 }
 

@@ -75,6 +75,11 @@ void declare_mesh_steps(Arguments& arguments, MeshStepArguments& a) {
   arguments.flag("--color", a.color, "colour vertices from the nearest points");
 }
 
+bool asks_for_steps(const MeshStepArguments& a) {
+  return a.keep_largest || a.min_island.value_or(0) > 0 || a.fill_holes > 0 || a.smooth > 0 ||
+         a.remesh > 0 || a.triangles > 0 || a.max_error > 0 || a.watertight || a.color;
+}
+
 void check_mesh_steps(const MeshStepArguments& a) {
   require(a.min_island.value_or(0) >= 0 && a.fill_holes >= 0 && a.remesh >= 0 && a.max_error >= 0,
           "expected --min-island-mm, --fill-holes-mm, --remesh-mm and --max-error-mm of 0 or more; "

@@ -28,6 +28,9 @@ struct MeshStepArguments {
 
 void declare_mesh_steps(Arguments& arguments, MeshStepArguments& a);
 
+/// Whether any step is asked for by name.
+bool asks_for_steps(const MeshStepArguments& a);
+
 /// Throws Error where a number is out of range.
 void check_mesh_steps(const MeshStepArguments& a);
 

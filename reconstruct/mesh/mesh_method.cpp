@@ -6,12 +6,12 @@
 #include <facula/reconstruct/mesh/mesh_engines.hpp>
 #include <facula/reconstruct/mesh/mesh_method.hpp>
 #include <facula/reconstruct/mesh/meshing.hpp>
-#include <facula/reconstruct/mesh/volumetric_merge.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace facula {
 namespace {
@@ -141,10 +141,12 @@ MeshedScans mesh_scans(const ScanProject& project,
   options.check();
   MeshedScans result;
   if (method == MeshMethod::kVolumetric) {
-    const VolumetricResult merged =
-        merge_volumetric(project, {.voxel = options.voxel, .num_threads = options.num_threads});
+    VolumetricResult merged = merge_volumetric(project,
+                                               {.voxel = options.voxel,
+                                                .max_memory = options.max_memory,
+                                                .num_threads = options.num_threads});
     for (const PosedCloud& scan : project.scans) result.points += scan.cloud.size();
-    result.mesh = merged.mesh;
+    result.mesh = std::move(merged.mesh);
     result.voxel = merged.voxel;
     return result;
   }

@@ -3,6 +3,7 @@
 
 #include <facula/acquire/core/point_cloud.hpp>
 #include <facula/acquire/core/triangle_mesh.hpp>
+#include <facula/reconstruct/mesh/volumetric_merge.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
 
 #include <cstddef>
@@ -38,7 +39,8 @@ MethodChoice choose_method(const ScanProject& project);
 struct MeshScansOptions {
   double voxel = 0;     ///< of the volume, or what points are thinned to [m]; 0 = from the sampling
   double max_edge = 0;  ///< longest edge of the methods that join points [m]; 0 = their own
-  int num_threads = 0;  ///< 0 = all cores [1]
+  double max_memory = VolumetricOptions{}.max_memory;  ///< for the volume [byte]
+  int num_threads = 0;                                 ///< 0 = all cores [1]
 
   void check() const;
 };
@@ -49,7 +51,8 @@ struct MeshedScans {
   std::size_t points = 0;  ///< the surface was made of, after thinning [1]
 };
 
-/// Makes the mesh. Thins, and estimates normals, where the method asks for it.
+/// Makes the mesh. Thins, and estimates normals, where the method asks for it. Throws
+/// VolumeMemoryError where the volume needs more than max_memory.
 MeshedScans mesh_scans(const ScanProject& project,
                        MeshMethod method,
                        const MeshScansOptions& options = {});

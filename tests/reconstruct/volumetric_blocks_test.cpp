@@ -6,9 +6,9 @@
 #include <facula/tests/reconstruct/simulated_grids.hpp>
 #include <facula/tests/support/matchers.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
+#include <facula/tests/support/triangles_by_place.hpp>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -16,24 +16,6 @@
 
 namespace facula {
 namespace {
-
-using Corner = std::array<float, 3>;
-
-/// The triangles by their corners' coordinates, the least corner first, in ascending order.
-std::vector<std::array<Corner, 3>> triangles_by_place(const TriangleMesh& mesh) {
-  std::vector<std::array<Corner, 3>> result;
-  for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
-    std::array<Corner, 3> corners;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Eigen::Vector3f& p = mesh.vertices[triangle[i]];
-      corners[i] = {p.x(), p.y(), p.z()};
-    }
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    result.push_back(corners);
-  }
-  std::sort(result.begin(), result.end());
-  return result;
-}
 
 ScanProject sphere_scans() {
   return six_views(sphere_range(0.1), 1, {.eye = {}, .target = {}, .half_angle = 0.12});
@@ -96,6 +78,15 @@ TEST(VolumetricBlocks, SplitsBricksIntoBoxesThatHoldEachOnce) {
   for (const BrickBlock& block : blocks) EXPECT_LE(block.bricks, 100U);
   EXPECT_TRUE(split_into_blocks({}, 10).empty());
   EXPECT_EQ(split_into_blocks(bricks, 1).size(), bricks.size());
+}
+
+TEST(VolumetricBlocks, SayWhereNotEvenThePlacesOfTheVoxelsFit) {
+  const ScanProject scans = sphere_scans();
+  const auto forget = [](const auto&, const auto&) {};
+  const std::string refusal = error_of([&] {
+    merge_volumetric_in_blocks(source_of(scans), forget, {.voxel = 2e-4, .max_memory = 4e5});
+  });
+  EXPECT_NE(refusal.find("GB"), std::string::npos) << refusal;
 }
 
 TEST(VolumetricBlocks, RefuseASourceWithoutASurface) {
