@@ -72,10 +72,11 @@ void draw_scale_bar(Image8& canvas,
   draw_line(canvas, left_end - end_mark, left_end + end_mark, stroke);
   draw_line(canvas, right_end - end_mark, right_end + end_mark, stroke);
   const std::string text = format_significant(length * unit.per_metre, 1) + " " + unit.name;
-  draw_text(canvas,
-            (left_end + right_end) / 2 - Eigen::Vector2d(0, 16),
-            text,
-            {.size = kTextSize, .align = TextAlign::kCenter});
+  // Over the bar's middle, but where that would cut it off: a bar may be shorter than its label.
+  const double half = text_width(text, kTextSize) / 2 + 2;
+  Eigen::Vector2d middle = (left_end + right_end) / 2 - Eigen::Vector2d(0, 16);
+  middle.x() = std::max(half, std::min(middle.x(), canvas.cols - half));
+  draw_text(canvas, middle, text, {.size = kTextSize, .align = TextAlign::kCenter});
 }
 
 Image8 empty_picture(const std::string& sentence) {
