@@ -60,11 +60,14 @@ std::vector<std::string> examples_of(const std::string& help) {
 }
 
 void make_small_capture(const std::filesystem::path& folder) {
-  const ProgramRun run = run_line(
+  static const TemporaryFolder made;
+  static const ProgramRun run = run_line(
       "facula simulate data/scenes/furnished_room.toml --rig data/rigs/head_fs1500.toml "
       "--position-mm -1500 -300 1100 --from-deg 0 --to-deg 8 --step-deg 2 --out capture",
-      folder);
+      made.path());
   if (run.code != 0) throw std::runtime_error(run.err);
+  std::filesystem::copy(
+      made / "capture", folder / "capture", std::filesystem::copy_options::recursive);
 }
 
 bool has_file_like(const std::filesystem::path& folder, const std::string& part) {

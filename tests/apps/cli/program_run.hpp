@@ -23,7 +23,7 @@ const std::vector<std::string>& command_names();
 /// The example lines at the end of the help of a command.
 std::vector<std::string> examples_of(const std::string& help);
 
-/// A capture of a few frames for tests to spoil, in `folder`/capture.
+/// A capture of a few frames for tests to spoil, in `folder`/capture; simulated once per program.
 void make_small_capture(const std::filesystem::path& folder);
 
 /// Whether any file below the folder holds that name's text in its name.
