@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/tests/apps/cli/measure_fixture.hpp>
 
+#include <Eigen/Geometry>
+
 namespace facula {
 namespace {
 
@@ -54,14 +56,17 @@ TEST_F(Measure, CompareToPointsWithoutASurfaceGivesDistancesAndSaysSo) {
 }
 
 TEST_F(Measure, CompareTakesManyPointsInOnePlaceAsOne) {
-  // A plate at right angles to the line of sight, 3 mm behind the points.
+  // A plate askew to all axes, 3 mm behind the points as seen from the origin.
+  const Eigen::Vector3f normal = Eigen::Vector3f(-2, -1, -1.5F).normalized();
+  const Eigen::Vector3f u = normal.unitOrthogonal();
+  const Eigen::Vector3f v = normal.cross(u);
   std::vector<Eigen::Vector3f> plate;
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < 400; ++i) {
-    const float y = 0.01F * static_cast<float>(i % 20);
-    const float z = 0.01F * static_cast<float>(i / 20);
-    plate.insert(plate.end(), 30, {2, y, z});
-    points.emplace_back(1.997F, y + 0.002F, z + 0.004F);
+    const float a = 0.01F * static_cast<float>(i % 20);
+    const float b = 0.01F * static_cast<float>(i / 20);
+    plate.insert(plate.end(), 30, Eigen::Vector3f(-2 * normal + a * u + b * v));
+    points.emplace_back(plate.back() + 0.002F * u + 0.004F * v + 0.003F * normal);
   }
   write("plate.pcd", points_alone(plate));
   write("points.pcd", points_alone(points));
