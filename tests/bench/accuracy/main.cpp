@@ -25,6 +25,7 @@ constexpr std::pair<const char*, StudyFunction> kStudies[] = {
     {"d", study_source_d},
     {"e", study_source_e},
     {"sigma", study_sigma},
+    {"planes", study_planes},
 };
 
 constexpr const char* kHead =
@@ -54,7 +55,7 @@ std::string run(const StudyOptions& options, const std::string& only, bool& reac
     text += "\n" + markdown(done);
     any = true;
   }
-  require(any, "expected a study a, b, c, d, e or sigma, got '", only, "'");
+  require(any, "expected a study a, b, c, d, e, sigma or planes, got '", only, "'");
   return text;
 }
 
@@ -65,7 +66,7 @@ std::string run(const StudyOptions& options, const std::string& only, bool& reac
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.size() < 2 || arguments.size() > 3) {
-    std::cerr << "usage: accuracy DATA_FOLDER OUT.md [a|b|c|d|e|sigma]\n";
+    std::cerr << "usage: accuracy DATA_FOLDER OUT.md [a|b|c|d|e|sigma|planes]\n";
     return 2;
   }
   try {

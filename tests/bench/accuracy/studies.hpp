@@ -20,5 +20,6 @@ Study study_source_c(const StudyOptions& options);  ///< two perpendicular plane
 Study study_source_d(const StudyOptions& options);  ///< profiles: stack, polygons, rods
 Study study_source_e(const StudyOptions& options);  ///< two-line rangefinder, air and water
 Study study_sigma(const StudyOptions& options);     ///< is every point's sigma honest?
+Study study_planes(const StudyOptions& options);    ///< planes and flatness of real scans
 
 }  // namespace facula
