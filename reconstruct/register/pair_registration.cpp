@@ -18,7 +18,7 @@ namespace facula {
 namespace {
 
 constexpr std::size_t kMinPairs = 12;
-constexpr double kCellVoxels = 5;        // neighbourhoods of normals reach about this far [voxels]
+constexpr double kCellVoxels = 10;       // twice as far as neighbourhoods of normals reach [voxels]
 constexpr double kSettledVoxels = 0.05;  // a level is done when points move less [voxels]
 
 struct Step {

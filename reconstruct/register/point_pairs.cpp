@@ -149,7 +149,8 @@ void PairFinder::weigh(PointPair& pair) const {
   const double source_across = source.across;
   const double target_across = target.across;
   double variance = source_across + target_across;
-  Eigen::Vector3d normal = pair.target_normal;
+  Eigen::Vector3d& normal = pair.normal;
+  normal = pair.target_normal;
   if (options_.method == PairMethod::kPointToPlane) {
     // The tangent plane is as wrong beside its point as the two normals disagree.
     variance += (pair.offset.squaredNorm() - std::pow(normal.dot(pair.offset), 2)) *

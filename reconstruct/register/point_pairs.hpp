@@ -17,12 +17,13 @@ struct PointPair {
   std::uint32_t source = 0;       ///< index in the source level's cloud [1]
   std::uint32_t target = 0;       ///< index in the target level's cloud [1]
   double distance = 0;            ///< between the two points [m]
-  double residual = 0;            ///< of `offset` across the surface, in standard deviations [1]
+  double residual = 0;            ///< of `offset` along `normal`, in standard deviations [1]
   double plane_distance = 0;      ///< the same [m]
   Eigen::Vector3d point;          ///< the source point [m]
   Eigen::Vector3d offset;         ///< source point - target point [m]
   Eigen::Vector3d source_normal;  ///< unit, on the target normal's side [1]
   Eigen::Vector3d target_normal;  ///< unit [1]
+  Eigen::Vector3d normal;         ///< of the surface: the target's, or the mean of both [1]
   Eigen::Matrix3d weight;         ///< inverse covariance of `offset` [1/m^2]
 };
 
