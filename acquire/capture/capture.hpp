@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <facula/acquire/core/scan_stand.hpp>
 #include <facula/acquire/rig/rig.hpp>
 #include <facula/acquire/stripe/background_match.hpp>
 #include <facula/acquire/stripe/stripe_detector.hpp>
@@ -73,6 +74,7 @@ struct Capture {
   WorkVolume volume;
   std::optional<ZeroLine> zero_line;
   RigidTransform world_from_scan;
+  ScanStand stand = ScanStand::kFree;  ///< against other captures that say the same
 
   std::size_t exposures_per_position() const { return exposures.empty() ? 1 : exposures.size(); }
 };

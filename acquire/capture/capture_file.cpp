@@ -196,6 +196,17 @@ void check_counts(const Capture& capture, std::size_t lit) {
           lit);
 }
 
+ScanStand read_stand(TomlTable& table) {
+  const auto name = table.text_if("stand");
+  const auto stand = stand_from_name(name.value_or("free"));
+  require(stand.has_value(),
+          table.where("stand"),
+          ": expected free, upright or table, got '",
+          name.value_or(""),
+          "'");
+  return *stand;
+}
+
 /// The laser the capture names; it may stay silent where the rig has only one.
 std::size_t read_laser(TomlTable& table, const Rig& rig) {
   const std::optional<std::string> name = table.text_if("laser");
@@ -220,6 +231,7 @@ Capture read_capture(const std::filesystem::path& path, const OptionalPath& fram
   capture.rig_file = table.folder() / table.text("rig");
   capture.rig = read_rig(capture.rig_file);
   capture.laser = read_laser(table, capture.rig);
+  capture.stand = read_stand(table);
   std::optional<TomlTable> positions = table.table_if("positions");
   std::optional<TomlTable> stripe = table.table_if("stripe");
   std::optional<TomlTable> volume = table.table_if("volume");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <facula/acquire/core/rigid_transform.hpp>
+#include <facula/acquire/core/scan_stand.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +36,7 @@ struct PolarScan {
   std::vector<Eigen::Vector3d> sensor_origin;  ///< camera centre in the scan frame [m]
 
   RigidTransform world_from_scan;
+  ScanStand stand = ScanStand::kFree;  ///< as the capture says
 
   /// A scan of the given size with no valid cell.
   static PolarScan empty(int rows, int cols);

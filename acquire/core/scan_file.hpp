@@ -14,8 +14,8 @@ PolarScan read_scan(const std::filesystem::path& path);
 /// Writes a scan; the extension chooses the format. Files appear whole or not at all.
 ///   .pcd  organised, width = columns, height = rows, fields x y z intensity range yaw pitch sigma,
 ///         little-endian binary, VIEWPOINT = world_from_scan. Header comments (which other readers
-///         skip) carry axis position, time and sensor origin of every column, so that reading gives
-///         back the same scan bit for bit.
+///         skip) carry axis position, time and sensor origin of every column, and how the scan
+///         stands, so that reading gives back the same scan bit for bit.
 ///   .ply  the valid points with row, col, intensity and sigma.
 ///   .asc  a line "col row x y z" per valid point, in metres (source C).
 void write_scan(const std::filesystem::path& path, const PolarScan& scan);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::string_view kMark = "facula scan 1";
 constexpr std::string_view kColumn = "facula column ";
+constexpr std::string_view kStand = "facula stand ";
 
 /// Reads one column's comment into the scan; false when it is torn.
 bool read_column(std::string_view text, std::size_t expected, PolarScan& scan) {
@@ -28,10 +29,24 @@ bool read_column(std::string_view text, std::size_t expected, PolarScan& scan) {
   return take_word(text).empty();
 }
 
+ScanStand read_stand(std::string_view name, const std::filesystem::path& path) {
+  const auto stand = stand_from_name(name);
+  require(stand.has_value(),
+          "the header of '",
+          path.string(),
+          "' says that the scan stands '",
+          name.substr(0, 40),
+          "'; expected free, upright or table");
+  return *stand;
+}
+
 }  // namespace
 
 std::vector<std::string> scan_comments(const PolarScan& scan) {
   std::vector<std::string> comments{std::string(kMark)};
+  if (scan.stand != ScanStand::kFree) {
+    comments.push_back(std::string(kStand) + to_string(scan.stand));
+  }
   for (std::size_t i = 0; i < scan.axis_position.size(); ++i) {
     const Eigen::Vector3d& origin = scan.sensor_origin[i];
     comments.push_back(std::string(kColumn) + number_text(i) + " " +
@@ -51,6 +66,9 @@ void read_scan_comments(const std::vector<std::string>& comments,
                         const std::filesystem::path& path) {
   std::size_t columns = 0;
   for (const std::string& comment : comments) {
+    if (comment.starts_with(kStand)) {
+      scan.stand = read_stand(std::string_view(comment).substr(kStand.size()), path);
+    }
     if (!comment.starts_with(kColumn)) continue;
     require(read_column(std::string_view(comment).substr(kColumn.size()), columns, scan),
             "the header of '",

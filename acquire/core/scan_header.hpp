@@ -10,14 +10,16 @@
 
 namespace facula {
 
-/// What a scan knows beside its cells, as comments of a PCD header: "facula scan 1" and, for every
-/// column, "facula column <number> <axis position> <time> <origin x> <origin y> <origin z>".
+/// What a scan knows beside its cells, as comments of a PCD header: "facula scan 1"; "facula stand
+/// upright" (or table) where the capture says so; and for every column "facula column <number>
+/// <axis position> <time> <origin x> <origin y> <origin z>".
 std::vector<std::string> scan_comments(const PolarScan& scan);
 
 /// Whether scan_comments() wrote into this header.
 bool has_scan_comments(const std::vector<std::string>& comments);
 
-/// Fills the columns of `scan`. Throws Error naming the file when a column is missing or torn.
+/// Fills the columns and the stand of `scan`. Throws Error naming the file when a column is missing
+/// or torn, or the stand is none that is known.
 void read_scan_comments(const std::vector<std::string>& comments,
                         PolarScan& scan,
                         const std::filesystem::path& path);

@@ -47,6 +47,9 @@ std::string settings_text(const Capture& capture) {
       << "\nlaser = " << toml_quoted(rig.lasers.empty() ? "" : rig.lasers[capture.laser].name)
       << "\ninterval_s = " << capture.frame_interval << "\n";
   write_exposures(out, capture.exposures);
+  if (capture.stand != ScanStand::kFree) {
+    out << "stand = " << toml_quoted(to_string(capture.stand)) << "\n";
+  }
   out << "\n";
   write_stripe_options(out, capture.stripe);
   const WorkVolume& volume = capture.volume;
@@ -150,6 +153,9 @@ Capture capture_of(const StripeLogHeader& header, const std::string& name) {
   capture.laser = laser_index(capture.rig, table.text("laser"), name);
   capture.frame_interval = table.number("interval_s");
   if (table.has("exposures_ms")) capture.exposures = table.numbers("exposures_ms");
+  const auto stand = stand_from_name(table.text_if("stand").value_or("free"));
+  require(stand.has_value(), table.where("stand"), ": expected free, upright or table");
+  capture.stand = *stand;
   capture.stripe = read_stripe_options(table.table("stripe"), capture.rig.stripe_direction);
   capture.volume = read_volume(table.table("volume"));
   capture.world_from_scan = read_pose(table.table("pose"));

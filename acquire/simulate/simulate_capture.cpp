@@ -81,9 +81,16 @@ const char* channel_for(const SimulateOptions& options) {
   return options.laser_colour == LaserColour::kRed ? "red" : "green";
 }
 
+/// The scene's z points up: a head that pans about it is plumb.
+ScanStand stand_of(const Rig& rig, const RigidTransform& world_from_scan) {
+  const Eigen::Vector3d axis = world_from_scan.rotation * Eigen::Vector3d::UnitZ();
+  const bool plumb = axis.head<2>().norm() < 1e-9 && axis.z() > 0;
+  return rig.axis.kind == AxisKind::kPan && plumb ? ScanStand::kUpright : ScanStand::kFree;
+}
+
 void write_capture(const std::filesystem::path& folder,
                    const SimulateOptions& options,
-                   const std::string& laser_name,
+                   const Rig& rig,
                    const RigidTransform& world_from_scan,
                    double line_sigma) {
   AtomicFile file(folder / "capture.toml");
@@ -92,8 +99,10 @@ void write_capture(const std::filesystem::path& folder,
   out.precision(17);
   const Eigen::Vector3d t = world_from_scan.translation * 1000;
   const Eigen::Quaterniond& q = world_from_scan.rotation;
-  out << "rig = \"rig.toml\"\nlaser = " << toml_quoted(laser_name) << "\n\n[frames]\non = \""
-      << kLit << "/*.png\"\n";
+  out << "rig = \"rig.toml\"\nlaser = " << toml_quoted(rig.lasers[options.laser].name) << "\n";
+  const ScanStand stand = stand_of(rig, world_from_scan);
+  if (stand != ScanStand::kFree) out << "stand = " << toml_quoted(to_string(stand)) << "\n";
+  out << "\n[frames]\non = \"" << kLit << "/*.png\"\n";
   if (options.background_frames) out << "off = \"" << kDark << "/*.png\"\n";
   out << "\n[positions]\ncsv = \"positions.csv\"\n"
       << "\n[stripe]\nchannel = \"" << channel_for(options)
@@ -195,7 +204,7 @@ void simulate_capture(const std::filesystem::path& folder,
   write_rig(folder / "rig.toml", rig);
   write_axis_positions(folder / "positions.csv", run.positions, rig.axis.kind);
   const double line_sigma = expected_line_sigma(truth, rig, options);
-  write_capture(folder, options, rig.lasers[options.laser].name, run.world_from_scan, line_sigma);
+  write_capture(folder, options, rig, run.world_from_scan, line_sigma);
 }
 
 }  // namespace facula

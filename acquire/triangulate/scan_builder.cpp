@@ -33,6 +33,7 @@ ScanBuilder::ScanBuilder(const Capture& capture, std::size_t columns, int num_th
           " rows");
   result_.scan = PolarScan::empty(rows, static_cast<int>(columns));
   result_.scan.world_from_scan = capture.world_from_scan;
+  result_.scan.stand = capture.stand;
   placed_.assign(columns, 0);
   noise_.assign(columns, 0);
   if (capture.zero_line) bed_shift_.assign(columns, 0);

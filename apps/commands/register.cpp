@@ -17,7 +17,7 @@ struct RegisterArguments {
   std::vector<std::filesystem::path> scans;
   std::filesystem::path out;
   std::string start = "auto";
-  std::string motion = "free";
+  std::string motion = "auto";
   RegisterScansOptions options;
 };
 
@@ -36,9 +36,10 @@ void declare(Arguments& arguments, RegisterArguments& a) {
                    "differ");
   arguments.choice("--motion",
                    a.motion,
-                   {"free", "upright", "table"},
+                   {"auto", "free", "upright", "table"},
                    "upright: heads that pan about a plumb axis; table: an object that turns or is "
-                   "moved on a table, and keeps its height");
+                   "moved on a table, and keeps its height; auto: what all the scans' captures say "
+                   "of their stand, else free");
   arguments.vector(
       "--axis", a.options.motion.axis, kPlainNumber, "of that motion, in the frame of every scan");
   arguments.number("--voxel-mm",
@@ -56,14 +57,14 @@ void declare(Arguments& arguments, RegisterArguments& a) {
   arguments.whole("--seed", a.options.global.seed, "of the search from nothing");
 }
 
-RegisterScansOptions options_of(const RegisterArguments& a, const Session& session) {
+RegisterScansOptions options_of(const RegisterArguments& a,
+                                const ScanProject& project,
+                                const Session& session) {
   RegisterScansOptions options = a.options;
   options.start = a.start == "given"     ? ScanStart::kGiven
                   : a.start == "nothing" ? ScanStart::kNothing
                                          : ScanStart::kAuto;
-  options.motion.kind = a.motion == "upright" ? ScanMotion::Kind::kUpright
-                        : a.motion == "table" ? ScanMotion::Kind::kTable
-                                              : ScanMotion::Kind::kFree;
+  options.motion.kind = stand_from_name(a.motion).value_or(project.stand());
   options.num_threads = session.num_threads;
   options.progress = session.progress("registering scans");
   return options;
@@ -82,12 +83,22 @@ void require_any_placed(const ScanProject& project, const RegisterScansResult& r
   fail("no scan could be placed; ", reasons);
 }
 
+void report_motion(const RegisterArguments& a, ScanStand kind, Figures& figures) {
+  figures.text("motion", "motion", to_string(kind));
+  if (a.motion == "auto" && kind != ScanStand::kFree) {
+    figures.note(
+        "The captures of all scans say how they stand to each other (motion); --motion free lets "
+        "the scans lie as they may.");
+  }
+}
+
 void run(const RegisterArguments& a, Session& session) {
   check_output(a.out, {".toml"});
   ScanProject project = read_posed_scans(a.scans).project;
   std::vector<RigidTransform> before;
   for (const PosedCloud& scan : project.scans) before.push_back(scan.world_from_scan);
-  const RegisterScansResult result = register_scans(project, options_of(a, session));
+  const RegisterScansOptions options = options_of(a, project, session);
+  const RegisterScansResult result = register_scans(project, options);
   require_any_placed(project, result);
   ScanProject placed;
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
@@ -95,6 +106,7 @@ void run(const RegisterArguments& a, Session& session) {
   }
   write_poses(a.out, placed);
   report_registration(project, before, result, session.figures);
+  report_motion(a, options.motion.kind, session.figures);
   session.figures.text("out", "written", a.out.string());
 }
 

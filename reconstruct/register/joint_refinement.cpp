@@ -85,7 +85,7 @@ std::vector<Term> all_terms(const ReadyScans& scans,
                    terms[k] = term_of(network, how, links[k]);
                },
                {.num_threads = options.num_threads, .chunk = 1});
-  if (options.motion.kind == ScanMotion::Kind::kFree) return terms;
+  if (options.motion.kind == ScanStand::kFree) return terms;
   for (const std::size_t i : scans.order) {
     if (i == network.anchor || !network.world_from_scan[i]) continue;
     terms.push_back(motion_term(network, options.motion, i));

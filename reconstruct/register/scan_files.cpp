@@ -25,6 +25,7 @@ void read_pcd_scan(const std::filesystem::path& path, PosedCloud& scan) {
     scan.cloud = cloud_from_scan(polar);
     scan.grid = grid_from_scan(polar);
     scan.world_from_scan = polar.world_from_scan;
+    scan.stand = polar.stand;
   } else {
     scan.cloud = read_cloud(path);
     scan.world_from_scan = pose_of(table.viewpoint, path);

@@ -36,10 +36,10 @@ void ScanMotion::check() const {
 }
 
 bool ScanMotion::allows(const RigidTransform& target_from_source) const {
-  if (kind == Kind::kFree) return true;
+  if (kind == ScanStand::kFree) return true;
   const Eigen::Vector3d up = axis.normalized();
   if (angle_of(lean(up, target_from_source)) > kSigmas * angle_sigma) return false;
-  return kind == Kind::kUpright ||
+  return kind == ScanStand::kUpright ||
          std::abs(up.dot(target_from_source.translation)) <= kSigmas * height_sigma;
 }
 
@@ -52,7 +52,7 @@ PoseEdge ScanMotion::as_edge(std::size_t from,
   const Eigen::Matrix3d along = up * up.transpose();
   edge.information.bottomRightCorner<3, 3>() =
       (Eigen::Matrix3d::Identity() - along) / (angle_sigma * angle_sigma);
-  if (kind == Kind::kTable) {
+  if (kind == ScanStand::kTable) {
     edge.to_from_from.translation -= up * up.dot(to_from_from.translation);
     edge.information.topLeftCorner<3, 3>() = along / (height_sigma * height_sigma);
   }

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <facula/acquire/core/rigid_transform.hpp>
+#include <facula/acquire/core/scan_stand.hpp>
 #include <facula/reconstruct/register/pose_graph.hpp>
-
-#include <cstdint>
 
 #include <Eigen/Core>
 
@@ -12,12 +11,7 @@ namespace facula {
 
 /// What is known beforehand about how scans lie to each other.
 struct ScanMotion {
-  enum class Kind : std::uint8_t {
-    kFree,     ///< nothing
-    kUpright,  ///< `axis` points the same way in all: heads that pan about a plumb axis
-    kTable,    ///< and they differ by no shift along it: an object that turns or moves on a table
-  };
-  Kind kind = Kind::kFree;
+  ScanStand kind = ScanStand::kFree;                ///< with `axis` in the place of z
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< in every scan's frame, of any length [1]
   double angle_sigma = 0.005;   ///< how far the axes may lean to each other, 1 std. deviation [rad]
   double height_sigma = 0.001;  ///< of the shift along the axis (kTable) [m]

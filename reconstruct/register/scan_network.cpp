@@ -98,7 +98,7 @@ void add_motion(const ScanMotion& motion,
                 const std::vector<std::size_t>& group,
                 const std::vector<RigidTransform>& poses,
                 std::vector<PoseEdge>& edges) {
-  if (motion.kind == ScanMotion::Kind::kFree) return;
+  if (motion.kind == ScanStand::kFree) return;
   for (std::size_t i = 0; i < group.size(); ++i) {
     const std::size_t root = group[i];
     if (root != i) edges.push_back(motion.as_edge(i, root, poses[root].inverse() * poses[i]));

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <facula/acquire/core/error.hpp>
-#include <facula/acquire/core/whole_file.hpp>
-#include <facula/reconstruct/register/compressed_file.hpp>
+#include <facula/reconstruct/register/scan_list.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
-#include <facula/reconstruct/register/scan_project_formats.hpp>
+
+#include <algorithm>
 
 namespace facula {
+
+ScanStand ScanProject::stand() const {
+  if (scans.empty()) return ScanStand::kFree;
+  const ScanStand first = scans.front().stand;
+  const bool same = std::all_of(
+      scans.begin(), scans.end(), [first](const PosedCloud& scan) { return scan.stand == first; });
+  return same ? first : ScanStand::kFree;
+}
 
 PointCloud ScanProject::fused() const {
   PointCloud all;
@@ -21,19 +28,9 @@ PointCloud ScanProject::fused() const {
 }
 
 ScanProject read_scan_project(const std::filesystem::path& path) {
-  require(std::filesystem::exists(path),
-          "there is no file or folder '",
-          path.string(),
-          "'; give a poses.toml, a .conf, a folder of 3DTK scans, or a scan file");
-  if (std::filesystem::is_directory(path)) {
-    const auto poses = path / "poses.toml";
-    return std::filesystem::exists(poses) ? read_poses_file(poses) : read_3dtk_folder(path);
-  }
-  const std::string extension = lower_extension(path);
-  if (extension == ".toml") return read_poses_file(path);
-  if (extension == ".conf") return read_stanford_conf(path);
-  if (without_packing(path).extension() == ".3d") return read_3dtk_scan(path);
-  return {{read_scan_file(path)}};
+  ScanProject project;
+  for (const ListedScan& scan : list_scans(path)) project.scans.push_back(scan.read());
+  return project;
 }
 
 }  // namespace facula

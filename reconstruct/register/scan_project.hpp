@@ -4,6 +4,7 @@
 #include <facula/acquire/core/point_cloud.hpp>
 #include <facula/acquire/core/rigid_transform.hpp>
 #include <facula/acquire/core/scan_grid.hpp>
+#include <facula/acquire/core/scan_stand.hpp>
 
 #include <filesystem>
 #include <string>
@@ -17,7 +18,8 @@ struct PosedCloud {
   std::filesystem::path file;
   PointCloud cloud;
   RigidTransform world_from_scan;
-  ScanGrid grid;  ///< of the cloud's points; empty where the file has none
+  ScanGrid grid;                       ///< of the cloud's points; empty where the file has none
+  ScanStand stand = ScanStand::kFree;  ///< against other scans that say the same
 
   /// Covariance of the twist e in true pose = exp_se3(e) * world_from_scan [m^2, m rad, rad^2],
   /// against the scan that stayed where it was; zero of that one, and where nobody stated it.
@@ -27,6 +29,9 @@ struct PosedCloud {
 /// Several scans with their poses.
 struct ScanProject {
   std::vector<PosedCloud> scans;
+
+  /// What all scans say of how they stand to each other; kFree where they differ.
+  ScanStand stand() const;
 
   /// All points in the world frame.
   PointCloud fused() const;

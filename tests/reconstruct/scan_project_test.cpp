@@ -164,6 +164,24 @@ TEST(ReadScanProject, TakesTheViewpointOfAPcdUnlessPosesSayOtherwise) {
   EXPECT_TRUE(is_near_pose(both.scans[1].world_from_scan, scan.world_from_scan, 1e-12, 1e-12));
 }
 
+TEST(ReadScanProject, KnowsHowScansStandWhereAllSayTheSame) {
+  const TemporaryFolder folder;
+  PolarScan scan = small_scan();
+  const auto stand_with = [&](ScanStand second) {
+    scan.stand = ScanStand::kUpright;
+    write_scan(folder / "a.pcd", scan);
+    scan.stand = second;
+    write_scan(folder / "b.pcd", scan);
+    return read_scan_project(
+               folder.write("poses.toml", "[[scan]]\nfile=\"a.pcd\"\n[[scan]]\nfile=\"b.pcd\"\n"))
+        .stand();
+  };
+  EXPECT_EQ(stand_with(ScanStand::kUpright), ScanStand::kUpright);
+  EXPECT_EQ(stand_with(ScanStand::kFree), ScanStand::kFree);
+  EXPECT_EQ(stand_with(ScanStand::kTable), ScanStand::kFree);
+  EXPECT_EQ(ScanProject{}.stand(), ScanStand::kFree);
+}
+
 TEST(ReadScanProject, UnpacksGzAndXz) {
   const TemporaryFolder folder;
   folder.write("a.xyz.gz", packed<boost::iostreams::gzip_compressor>(kPoints));

@@ -84,6 +84,15 @@ TEST_F(CaptureFile, ExtractsTheRangeOfEveryFrame) {
   }
 }
 
+TEST_F(CaptureFile, HandsHowTheHeadStandsToTheScan) {
+  EXPECT_EQ(extract_scan(read_capture(folder_.path())).scan.stand, ScanStand::kFree);
+  const std::string text = read_text(folder_ / "capture.toml");
+  folder_.write("capture.toml", "stand = \"upright\"\n" + text);
+  EXPECT_EQ(extract_scan(read_capture(folder_.path())).scan.stand, ScanStand::kUpright);
+  folder_.write("capture.toml", "stand = \"askew\"\n" + text);
+  EXPECT_TRUE(complains_of("'stand': expected free, upright or table, got 'askew'"));
+}
+
 TEST_F(CaptureFile, GivesTheSameScanForEveryNumberOfThreads) {
   const Capture capture = read_capture(folder_.path());
   const PolarScan one = extract_scan(capture, {.num_threads = 1}).scan;

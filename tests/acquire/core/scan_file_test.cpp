@@ -55,6 +55,7 @@ void expect_same_bits(const PolarScan& a, const PolarScan& b) {
   EXPECT_TRUE(same_bits(a.sensor_origin, b.sensor_origin));
   EXPECT_EQ(a.world_from_scan.translation, b.world_from_scan.translation);
   EXPECT_EQ(a.world_from_scan.rotation.coeffs(), b.world_from_scan.rotation.coeffs());
+  EXPECT_EQ(a.stand, b.stand);
 }
 
 /// A small organised file by another program: 2 x 2, one gap.
@@ -71,6 +72,22 @@ TEST(ScanFile, ReadsBackTheSameScanBitForBit) {
   ASSERT_LT(scan.valid_count(), 35U);
   write_scan(folder / "a.pcd", scan);
   expect_same_bits(read_scan(folder / "a.pcd"), scan);
+}
+
+TEST(ScanFile, KeepsHowTheScanStandsAndRefusesWhatItDoesNotKnow) {
+  const TemporaryFolder folder;
+  PolarScan scan = uneven_scan();
+  write_scan(folder / "free.pcd", scan);
+  EXPECT_EQ(read_whole_file(folder / "free.pcd").find("facula stand"), std::string::npos);
+  for (const ScanStand stand : {ScanStand::kUpright, ScanStand::kTable}) {
+    scan.stand = stand;
+    write_scan(folder / "a.pcd", scan);
+    expect_same_bits(read_scan(folder / "a.pcd"), scan);
+  }
+  std::string text = read_whole_file(folder / "a.pcd");
+  text.replace(text.find("stand table"), 11, "stand askew");
+  EXPECT_NE(error_of([&] { read_scan(folder.write("b.pcd", text)); }).find("stands 'askew'"),
+            std::string::npos);
 }
 
 TEST(ScanFile, ReadsBackAScanOfOneRow) {

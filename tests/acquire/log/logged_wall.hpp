@@ -88,6 +88,7 @@ inline testing::AssertionResult is_same_scan(const PolarScan& a, const PolarScan
                     same_bytes(a.pitch, b.pitch) && same_bytes(a.intensity, b.intensity) &&
                     same_bytes(a.sigma, b.sigma) && same_bytes(a.axis_position, b.axis_position) &&
                     same_bytes(a.time, b.time) && same_bytes(a.sensor_origin, b.sensor_origin) &&
+                    a.stand == b.stand &&
                     a.world_from_scan.translation == b.world_from_scan.translation &&
                     a.world_from_scan.rotation.coeffs() == b.world_from_scan.rotation.coeffs();
   return rest ? testing::AssertionSuccess()

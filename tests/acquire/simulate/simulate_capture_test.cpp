@@ -80,6 +80,21 @@ TEST(SimulateCapture, IsReadBackAsTheCaptureItIs) {
   EXPECT_EQ(truth.range, expected.range);
 }
 
+TEST(SimulateCapture, SaysThatAPlumbPanHeadStandsUprightAndOfNoOther) {
+  const TemporaryFolder folder;
+  const auto stand_of = [&](const Rig& rig, const RigidTransform& pose) {
+    simulate_capture(folder / "run", small_room(), rig, {pose, {0.1}}, options_for(rig));
+    return read_capture(folder / "run").stand;
+  };
+  EXPECT_EQ(stand_of(pan_head(), small_run().world_from_scan), ScanStand::kUpright);
+  RigidTransform tilted = small_run().world_from_scan;
+  tilted.rotation = tilted.rotation * Eigen::AngleAxisd(0.01, Vector3d::UnitX());
+  EXPECT_EQ(stand_of(pan_head(), tilted), ScanStand::kFree);
+  Rig table = pan_head();
+  table.axis.kind = AxisKind::kTurntable;
+  EXPECT_EQ(stand_of(table, small_run().world_from_scan), ScanStand::kFree);
+}
+
 TEST(SimulateCapture, DoesNotDependOnTheNumberOfThreads) {
   const TemporaryFolder folder;
   const Rig rig = pan_head();
