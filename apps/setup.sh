@@ -10,12 +10,12 @@ packages=(
   g++ cmake ninja-build pkg-config ccache clang-format clang-tidy universal-ctags xz-utils
   # geometry, images, point clouds, meshes, maps, ray casting
   libeigen3-dev libopencv-dev libpcl-dev libcgal-dev liboctomap-dev libflann-dev libembree-dev
-  libtbb-dev libceres-dev libhwy-dev libassimp-dev
+  libtbb-dev libceres-dev libhwy-dev libassimp-dev libompl-dev
   # files, command line, messages
   libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libboost-iostreams-dev
   zlib1g-dev liblzma-dev liblz4-dev
   # tests and benchmarks
-  libgtest-dev libbenchmark-dev
+  libgtest-dev libbenchmark-dev libdynamicedt3d-dev
 )
 
 # Open3D, through its Python.

@@ -44,6 +44,7 @@ heavy_library() {
     flann/*) echo flann ;;
     ceres/*) echo ceres ;;
     embree*/*) echo embree ;;
+    ompl/*) echo ompl ;;
   esac
 }
 

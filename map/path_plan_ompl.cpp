@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/error.hpp>
+#include <facula/map/clearance.hpp>
+#include <facula/map/path_plan.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <ompl/base/MotionValidator.h>
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/geometric/PathGeometric.h>
+#include <ompl/geometric/PathSimplifier.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+namespace facula {
+namespace {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+constexpr double kTreeStep = 1.5;            // longest branch of a tree [m]
+constexpr double kReach = 1;                 // clearances beyond radius + this help no more [m]
+constexpr unsigned int kRounds = 4;          // of shortening
+constexpr unsigned int kShortcuts = 200;     // tried per round
+constexpr unsigned int kSmoothingSteps = 3;  // halvings of the corners
+
+/// Keeps OMPL from printing while it lives.
+class Silence {
+ public:
+  Silence() { ompl::msg::noOutputHandler(); }
+  ~Silence() { ompl::msg::restorePreviousOutputHandler(); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+};
+
+/// A plan's question: where a ball of `radius` may be.
+struct Task {
+  const Clearance* clearance = nullptr;
+  double radius = 0;             // what is kept [m]
+  std::optional<double> height;  // of all places, where it is fixed [m]
+  Eigen::AlignedBox3d known;     // [m]
+
+  /// Between two places that are looked at the clearance may be less by half a step.
+  double asked_radius() const { return radius + clearance->step() / 2; }
+
+  Eigen::Vector3d place(const ob::State* state) const {
+    const auto* values = state->as<ob::RealVectorStateSpace::StateType>()->values;
+    return {values[0], values[1], height ? *height : values[2]};
+  }
+};
+
+class BallMotion : public ob::MotionValidator {
+ public:
+  BallMotion(const ob::SpaceInformationPtr& space, const Task& task)
+      : ob::MotionValidator(space), task_(task) {}
+
+  bool checkMotion(const ob::State* a, const ob::State* b) const override {
+    return task_.clearance->holds_along(task_.place(a), task_.place(b), task_.asked_radius());
+  }
+
+  /// Only some planners ask for the last place that was fine: ours do not.
+  bool checkMotion(const ob::State* a,
+                   const ob::State* b,
+                   std::pair<ob::State*, double>& last_valid) const override {
+    const bool fine = checkMotion(a, b);
+    last_valid.second = fine ? 1 : 0;
+    if (last_valid.first != nullptr) si_->copyState(last_valid.first, fine ? b : a);
+    return fine;
+  }
+
+ private:
+  Task task_;
+};
+
+ob::SpaceInformationPtr space_of(const Task& task) {
+  const unsigned int dimensions = task.height ? 2 : 3;
+  auto space = std::make_shared<ob::RealVectorStateSpace>(dimensions);
+  ob::RealVectorBounds bounds(dimensions);
+  for (unsigned int i = 0; i < dimensions; ++i) {
+    bounds.setLow(i, task.known.min()[i]);
+    bounds.setHigh(i, task.known.max()[i]);
+  }
+  space->setBounds(bounds);
+  auto information = std::make_shared<ob::SpaceInformation>(space);
+  information->setStateValidityChecker([task](const ob::State* state) {
+    return task.clearance->holds(task.place(state), task.asked_radius());
+  });
+  information->setMotionValidator(std::make_shared<BallMotion>(information, task));
+  information->setup();
+  return information;
+}
+
+std::shared_ptr<ob::ProblemDefinition> problem_of(const ob::SpaceInformationPtr& space,
+                                                  const Eigen::Vector3d& from,
+                                                  const Eigen::Vector3d& to) {
+  ob::ScopedState<> start(space);
+  ob::ScopedState<> goal(space);
+  for (unsigned int i = 0; i < space->getStateDimension(); ++i) {
+    start[i] = from[i];
+    goal[i] = to[i];
+  }
+  auto problem = std::make_shared<ob::ProblemDefinition>(space);
+  problem->setStartAndGoalStates(start, goal, std::numeric_limits<double>::epsilon());
+  return problem;
+}
+
+/// Everything after the first path: in numbers of steps, so that no clock decides.
+void shorten(og::PathGeometric& path, const ob::SpaceInformationPtr& space) {
+  og::PathSimplifier simplifier(space);
+  for (unsigned int round = 0; round < kRounds; ++round) {
+    simplifier.reduceVertices(path);
+    simplifier.shortcutPath(path, kShortcuts, kShortcuts);
+    simplifier.collapseCloseVertices(path);
+  }
+  simplifier.smoothBSpline(path, kSmoothingSteps);
+}
+
+Eigen::AlignedBox3d metres_of(const CellBox& cells, double resolution) {
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(resolution / 2);
+  return {centre_of(cells.low, resolution) - half, centre_of(cells.high, resolution) + half};
+}
+
+void require_place(const char* name, const Eigen::Vector3d& x, const Task& task) {
+  require(x.allFinite() && task.known.contains(x),
+          "expected the ",
+          name,
+          " within the map, which is known from (",
+          task.known.min().transpose(),
+          ") m to (",
+          task.known.max().transpose(),
+          ") m, got (",
+          x.transpose(),
+          ") m; give a place in between");
+  const double needed = task.asked_radius();
+  const double clearance = task.clearance->exact(x, needed);
+  require(clearance > 0,
+          "expected the ",
+          name,
+          " in free space, got (",
+          x.transpose(),
+          ") m inside an obstacle (clearance 0 m); give another place");
+  require(clearance >= needed,
+          "expected the ",
+          name,
+          " at least ",
+          needed,
+          " m (the radius and a sixteenth of a cell) from obstacles, but (",
+          x.transpose(),
+          ") m has a clearance of ",
+          clearance,
+          " m; give another place or a smaller radius");
+}
+
+/// Places along the path, at most half a cell apart, each measured in the map itself.
+std::vector<PathSample> samples_of(const std::vector<Eigen::Vector3d>& corners,
+                                   const Task& task,
+                                   double max_clearance) {
+  std::vector<PathSample> samples;
+  const auto add = [&](const Eigen::Vector3d& x) {
+    samples.push_back({x, task.clearance->exact(x, std::max(max_clearance, task.radius))});
+    require(samples.back().clearance >= task.radius,
+            "expected a path that keeps ",
+            task.radius,
+            " m from obstacles, but the one found comes as near as ",
+            samples.back().clearance,
+            " m at (",
+            x.transpose(),
+            ") m: a fault of the planner, please report it");
+  };
+  add(corners.front());
+  const double spacing = task.clearance->query().resolution() / 2;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const Eigen::Vector3d way = corners[i] - corners[i - 1];
+    const auto pieces = std::max(1, static_cast<int>(std::ceil(way.norm() / spacing)));
+    for (int k = 1; k <= pieces; ++k) {
+      add(k == pieces ? corners[i]
+                      : Eigen::Vector3d(corners[i - 1] + static_cast<double>(k) / pieces * way));
+    }
+  }
+  return samples;
+}
+
+PathPlan plan_of(og::PathGeometric& path, const Task& task, double max_clearance) {
+  PathPlan plan;
+  for (const ob::State* state : path.getStates()) {
+    const Eigen::Vector3d x = task.place(state);
+    if (!plan.corners.empty()) plan.length += (x - plan.corners.back()).norm();
+    plan.corners.push_back(x);
+  }
+  plan.samples = samples_of(plan.corners, task, max_clearance);
+  plan.least_clearance = plan.samples.front().clearance;
+  for (const PathSample& sample : plan.samples) {
+    plan.least_clearance = std::min(plan.least_clearance, sample.clearance);
+  }
+  return plan;
+}
+
+/// RRT-Connect from both ends, then shortening.
+PathPlan search(const Task& task,
+                const Eigen::Vector3d& from,
+                const Eigen::Vector3d& to,
+                const PathPlanOptions& options) {
+  // OMPL's source of seeds belongs to the whole process.
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  const Silence silence;
+  ompl::RNG::setSeed(options.seed);
+  const ob::SpaceInformationPtr space = space_of(task);
+  const auto problem = problem_of(space, from, to);
+  og::RRTConnect planner(space);
+  planner.setRange(kTreeStep);
+  planner.setProblemDefinition(problem);
+  std::size_t tries = 0;
+  planner.solve(ob::PlannerTerminationCondition([&] { return ++tries > options.max_tries; }));
+  require(problem->hasExactSolution(),
+          "expected a path that keeps ",
+          task.radius,
+          " m from obstacles, found none in ",
+          options.max_tries,
+          " random tries; there may be none: try a smaller radius, unknown cells as free, or more "
+          "tries");
+  auto& path = *problem->getSolutionPath()->as<og::PathGeometric>();
+  shorten(path, space);
+  PathPlan plan = plan_of(path, task, options.max_clearance);
+  plan.tries = tries;
+  return plan;
+}
+
+}  // namespace
+
+void PathPlanOptions::check() const {
+  require(std::isfinite(radius) && radius > 0,
+          "PathPlanOptions: expected a radius above 0 m, got ",
+          radius);
+  require(std::isfinite(max_clearance) && max_clearance > 0,
+          "PathPlanOptions: expected max_clearance above 0 m, got ",
+          max_clearance);
+  require(seed > 0, "PathPlanOptions: expected a seed above 0, got 0");
+  require(max_tries > 0, "PathPlanOptions: expected max_tries above 0, got 0");
+}
+
+PathPlan plan_path(const OccupancyMap& map,
+                   const Eigen::Vector3d& from,
+                   const Eigen::Vector3d& to,
+                   const PathPlanOptions& options) {
+  options.check();
+  require(from.allFinite() && to.allFinite(),
+          "expected a start and a goal of finite numbers, got (",
+          from.transpose(),
+          ") m and (",
+          to.transpose(),
+          ") m");
+  require(!options.flat || from.z() == to.z(),
+          "expected a start and a goal of the same height for a flat path, got ",
+          from.z(),
+          " m and ",
+          to.z(),
+          " m");
+  const auto height = options.flat ? std::optional<double>(from.z()) : std::nullopt;
+  const Clearance clearance(map,
+                            {.unknown = options.unknown,
+                             .height = height,
+                             .reach = options.radius + kReach,
+                             .max_memory = options.max_memory,
+                             .num_threads = options.num_threads});
+  const CellBox known = clearance.query().known().value();
+  const Task task{.clearance = &clearance,
+                  .radius = options.radius,
+                  .height = height,
+                  .known = metres_of(known, map.resolution())};
+  require_place("start", from, task);
+  require_place("goal", to, task);
+  return search(task, from, to, options);
+}
+
+}  // namespace facula
