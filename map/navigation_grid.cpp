@@ -1,74 +1,60 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/map/cell_layers.hpp>
 #include <facula/map/navigation_grid.hpp>
+#include <facula/map/plan_frame.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace facula {
 namespace {
 
-/// Largest grid that is made [cells]: 32768 x 32768. One stray point far out could ask for more.
-constexpr double kMaxCells = 1073741824.0;
+constexpr float kNothingKnown = -std::numeric_limits<float>::infinity();
 
-bool in_band(const NavigationGridOptions& options, double z, double edge) {
-  // A shared face is not an overlap; cell faces come from doubles that may be off by a rounding.
-  const double slack = 1e-6 * edge;
-  return z + edge / 2 > options.min_height + slack && z - edge / 2 < options.max_height - slack;
-}
-
-/// An empty grid around all known cells of the band.
-NavigationGrid empty_grid(const OccupancyMap& map, const NavigationGridOptions& options) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Eigen::Vector2d min = Eigen::Vector2d::Constant(kInfinity);
-  Eigen::Vector2d max = -min;
-  map.for_each_leaf([&](const Eigen::Vector3d& centre, CellState, double edge) {
-    if (!in_band(options, centre.z(), edge)) return;
-    min = min.cwiseMin((centre.head<2>().array() - edge / 2).matrix());
-    max = max.cwiseMax((centre.head<2>().array() + edge / 2).matrix());
+PlanFrame frame_between(const OccupancyMap& map, const NavigationGridOptions& options) {
+  const CellLayers layers =
+      layers_between(options.min_height, options.max_height, map.resolution());
+  const auto frame = plan_frame(map, [&](const OccupancyMap::BrickView& brick) {
+    return brick.known & mask_of(layers, brick.first[2]);
   });
-  require(min.allFinite(),
+  require(frame.has_value(),
           "the map has no known cell between the heights ",
           options.min_height,
           " m and ",
           options.max_height,
           " m; choose heights that the scans have seen");
-  const Eigen::Vector2d cells = (max - min) / map.resolution();
-  require(cells.prod() <= kMaxCells,
-          "a grid of ",
-          cells.x(),
-          " x ",
-          cells.y(),
-          " cells is too large; use coarser cells or a shorter range");
-  NavigationGrid grid;
-  grid.cols = static_cast<int>(std::lround(cells.x()));
-  grid.rows = static_cast<int>(std::lround(cells.y()));
-  grid.resolution = map.resolution();
-  grid.origin = min;
-  grid.cells.assign(static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.cols),
-                    NavigationGrid::kUnknown);
-  return grid;
+  return *frame;
 }
 
-/// Writes a leaf's square; occupied stays occupied whatever lies above or below.
-void paint(NavigationGrid& grid, const Eigen::Vector3d& centre, CellState state, double edge) {
-  const auto index = [&](double corner, double origin) {
-    return std::lround((corner - origin) / grid.resolution);
-  };
-  const long width = std::lround(edge / grid.resolution);
-  const long first_col = index(centre.x() - edge / 2, grid.origin.x());
-  const long first_up = index(centre.y() - edge / 2, grid.origin.y());
-  for (long up = first_up; up < first_up + width; ++up) {
-    const auto row = static_cast<std::size_t>(grid.rows - 1 - up);
-    for (long col = first_col; col < first_col + width; ++col) {
-      std::uint8_t& cell =
-          grid.cells[row * static_cast<std::size_t>(grid.cols) + static_cast<std::size_t>(col)];
-      if (state == CellState::kOccupied)
-        cell = NavigationGrid::kOccupied;
-      else if (cell == NavigationGrid::kUnknown)
-        cell = NavigationGrid::kFree;
-    }
+/// The largest log-odds of every column between the heights.
+std::vector<float> largest_log_odds(const OccupancyMap& map,
+                                    const NavigationGridOptions& options,
+                                    const PlanFrame& frame) {
+  const CellLayers layers =
+      layers_between(options.min_height, options.max_height, map.resolution());
+  std::vector<float> largest(frame.size(), kNothingKnown);
+  LogOddsBrick::Values values{};
+  for (const LogOddsMap::Entry& entry : map.bricks().entries()) {
+    const CellKey first = first_cell(entry.code);
+    const CellMask band = mask_of(layers, first[2]);
+    if (band.none()) continue;
+    for_each_cell(entry.brick.read(values) & band, [&](std::size_t cell) {
+      const int x = first[0] + static_cast<int>(cell & 7);
+      const int y = first[1] + static_cast<int>(cell >> 3 & 7);
+      float& column = largest[frame.index(x, y)];
+      column = std::max(column, values[cell]);
+    });
   }
+  return largest;
+}
+
+/// Rounded so that 50 % and more is what the map calls occupied.
+std::int8_t percent_of(float log_odds) {
+  const double percent = std::round(100 / (1 + std::exp(-static_cast<double>(log_odds))));
+  return static_cast<std::int8_t>(log_odds >= 0 ? std::max(percent, 50.0)
+                                                : std::min(percent, 49.0));
 }
 
 }  // namespace
@@ -80,14 +66,29 @@ void NavigationGridOptions::check() const {
           " m to ",
           max_height,
           " m");
+  require(std::isfinite(inflation) && inflation >= 0,
+          "NavigationGridOptions: expected inflation of 0 m (none) or more, got ",
+          inflation);
 }
 
 NavigationGrid navigation_grid(const OccupancyMap& map, const NavigationGridOptions& options) {
   options.check();
-  NavigationGrid grid = empty_grid(map, options);
-  map.for_each_leaf([&](const Eigen::Vector3d& centre, CellState state, double edge) {
-    if (in_band(options, centre.z(), edge)) paint(grid, centre, state, edge);
-  });
+  const PlanFrame frame = frame_between(map, options);
+  NavigationGrid grid{.rows = frame.rows,
+                      .cols = frame.cols,
+                      .resolution = frame.resolution,
+                      .origin = frame.origin(),
+                      .cells = {}};
+  grid.cells.reserve(frame.size());
+  grid.occupancy.reserve(frame.size());
+  for (const float log_odds : largest_log_odds(map, options, frame)) {
+    const bool known = log_odds != kNothingKnown;
+    grid.cells.push_back(!known          ? NavigationGrid::kUnknown
+                         : log_odds >= 0 ? NavigationGrid::kOccupied
+                                         : NavigationGrid::kFree);
+    grid.occupancy.push_back(known ? percent_of(log_odds) : std::int8_t{-1});
+  }
+  inflate(grid, options.inflation);
   return grid;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/random.hpp>
 #include <facula/map/navigation_grid.hpp>
+#include <facula/tests/map/drawn_map.hpp>
 #include <facula/tests/support/matchers.hpp>
-#include <facula/tests/support/temporary_folder.hpp>
 
-#include <fstream>
-#include <map>
-#include <sstream>
+#include <algorithm>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -36,13 +36,6 @@ OccupancyMap corner_scene() {
   OccupancyMap map({.resolution = kCell});
   map.insert(cloud);
   return map;
-}
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 TEST(NavigationGrid, LooksDownOnTheSceneWithYUpwards) {
@@ -98,101 +91,116 @@ TEST(NavigationGrid, SaysThatNothingWasSeenBetweenTheHeights) {
             std::string::npos);
 }
 
-NavigationGrid sample_grid() {
-  NavigationGrid grid;
-  grid.rows = 2;
-  grid.cols = 3;
-  grid.resolution = 1.0 / 30;
-  grid.origin = {-12.345678901234567, 1e-7};
-  grid.cells = {kFree, kOccupied, kUnknown, kOccupied, kOccupied, kFree};
+/// One column per log-odds, from left to right, in cells of 0.1 m.
+OccupancyMap row_of_columns(const std::vector<float>& log_odds) {
+  DrawnMap drawn(kCell);
+  for (int x = 0; x < static_cast<int>(log_odds.size()); ++x) {
+    drawn.paint({{x, 0, 3}, {x + 1, 1, 4}}, log_odds[static_cast<std::size_t>(x)]);
+  }
+  return drawn.map();
+}
+
+TEST(NavigationGrid, GivesEveryColumnItsLargestProbabilityInPercent) {
+  // Probabilities by hand: 1 / (1 + e^2) = 0.1192, 1 / (1 + e^-3.5) = 0.9707.
+  EXPECT_EQ(navigation_grid(row_of_columns({-2, 3.5F})).occupancy,
+            (std::vector<std::int8_t>{12, 97}));
+  DrawnMap column(kCell);
+  column.paint({{0, 0, 2}, {1, 1, 9}}, -2);
+  column.paint({{0, 0, 5}, {1, 1, 6}}, 0.847298F);  // 0.7
+  column.paint({{0, 0, 7}, {1, 1, 8}}, -0.405465F);
+  const NavigationGrid grid = navigation_grid(column.map());
+  EXPECT_EQ(grid.occupancy, std::vector<std::int8_t>{70});
+  EXPECT_EQ(grid.cells, std::vector<std::uint8_t>{kOccupied});
+}
+
+TEST(NavigationGrid, RoundsProbabilitiesToTheSideTheirStateIsOn) {
+  const NavigationGrid grid = navigation_grid(row_of_columns({-0.001F, 0, 0.001F}));
+  EXPECT_EQ(grid.occupancy, (std::vector<std::int8_t>{49, 50, 50}));
+  EXPECT_EQ(grid.cells, (std::vector<std::uint8_t>{kFree, kOccupied, kOccupied}));
+}
+
+TEST(NavigationGrid, MarksUnknownColumnsInBothForms) {
+  DrawnMap drawn(kCell);
+  drawn.free({{0, 0, 3}, {1, 1, 4}});
+  drawn.free({{2, 0, 3}, {3, 1, 4}});
+  const NavigationGrid grid = navigation_grid(drawn.map());
+  EXPECT_EQ(grid.cells, (std::vector<std::uint8_t>{kFree, kUnknown, kFree}));
+  EXPECT_EQ(grid.occupancy, (std::vector<std::int8_t>{12, -1, 12}));
+}
+
+/// Cells within `radius` of an occupied one, by looking at every pair.
+std::vector<std::uint8_t> inflated_by_pairs(const NavigationGrid& grid, double radius) {
+  std::vector<std::uint8_t> cells = grid.cells;
+  const auto at = [&](int row, int col) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.cols) +
+           static_cast<std::size_t>(col);
+  };
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int col = 0; col < grid.cols; ++col) {
+      for (int r = 0; r < grid.rows; ++r) {
+        for (int c = 0; c < grid.cols; ++c) {
+          const double squared = (r - row) * (r - row) + (c - col) * (c - col);
+          const double reach = radius / grid.resolution;
+          if (grid.cells[at(r, c)] == kOccupied && squared <= reach * reach + 1e-6) {
+            cells[at(row, col)] = kOccupied;
+          }
+        }
+      }
+    }
+  }
+  return cells;
+}
+
+NavigationGrid random_grid(std::uint64_t seed) {
+  Random random(seed);
+  NavigationGrid grid{.rows = 23, .cols = 31, .resolution = 0.05, .origin = {1, 2}, .cells = {}};
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const double draw = random.uniform();
+    grid.cells.push_back(draw < 0.02 ? kOccupied : draw < 0.3 ? kUnknown : kFree);
+    grid.occupancy.push_back(draw < 0.02 ? 80 : draw < 0.3 ? -1 : 12);
+  }
   return grid;
 }
 
-TEST(NavigationGridFile, WritesThePixelsAndKeysThatMapServersRead) {
-  const TemporaryFolder folder;
-  write_navigation_grid(folder / "floor.yaml", sample_grid());
-  EXPECT_EQ(text_of(folder / "floor.pgm"), "P5\n3 2\n255\n" + std::string("\xfe\0\xcd\0\0\xfe", 6));
-  EXPECT_EQ(text_of(folder / "floor.yaml"),
-            "image: floor.pgm\nmode: trinary\nresolution: 0.03333333333333333\n"
-            "origin: [-12.345678901234567, 1e-07, 0]\nnegate: 0\n"
-            "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
-}
-
-TEST(NavigationGridFile, ReadsBackWhatItWrote) {
-  const TemporaryFolder folder;
-  for (const char* name : {"a.yaml", "two words - \"#1\": x.yaml"}) {
-    write_navigation_grid(folder / name, sample_grid());
-    const NavigationGrid back = read_navigation_grid(folder / name);
-    EXPECT_EQ(back.rows, 2);
-    EXPECT_EQ(back.cols, 3);
-    EXPECT_EQ(back.resolution, sample_grid().resolution);
-    EXPECT_EQ(back.origin, sample_grid().origin);
-    EXPECT_EQ(back.cells, sample_grid().cells);
+TEST(InflateGrid, TakesInTheCellsThatEveryPairSaysAreNear) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    for (const double radius : {0.0, 0.049, 0.05, 0.08, 0.15, 0.25, 0.8, 100.0}) {
+      NavigationGrid grid = random_grid(seed);
+      const std::vector<std::uint8_t> expected = inflated_by_pairs(grid, radius);
+      inflate(grid, radius);
+      EXPECT_EQ(grid.cells, expected) << "seed " << seed << ", radius " << radius;
+    }
   }
 }
 
-TEST(NavigationGridFile, ReadsWhatTheRosMapSaverWrites) {
-  const TemporaryFolder folder;
-  folder.write("map.pgm", "P5\n# CREATOR: map_saver\n2 1\n255\n" + std::string("\xcd\xfe", 2));
-  const auto yaml = folder.write("map.yaml",
-                                 "image: map.pgm\nresolution: 0.050000  # m\n"
-                                 "origin: [-10.000000, -10.000000, 0.000000]\nnegate: 0\n"
-                                 "occupied_thresh: 0.65\nfree_thresh: 0.196\n\n");
-  const NavigationGrid grid = read_navigation_grid(yaml);
-  EXPECT_EQ(grid.cells, (std::vector<std::uint8_t>{kUnknown, kFree}));
-  EXPECT_EQ(grid.resolution, 0.05);
-  EXPECT_EQ(grid.origin, Eigen::Vector2d(-10, -10));
-}
-
-TEST(NavigationGridFile, SaysWhatIsWrongWithAFile) {
-  const TemporaryFolder folder;
-  folder.write("ok.pgm", "P5\n2 1\n255\n" + std::string("\0\0", 2));
-  folder.write("torn.pgm", "P5\n2 2\n255\n" + std::string("\0\0", 2));
-  folder.write("huge.pgm", "P5\n2000000000 2000000000\n255\n..");
-  folder.write("text.pgm", "P2\n2 1\n255\n0 0\n");
-  folder.write("deep.pgm", "P5\n2 1\n65535\n....");
-  folder.write("short.pgm", "P5\n2");
-  const std::string rest =
-      "\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: "
-      "0.196\n";
-  const std::map<std::string, std::string> cases = {
-      {"image: torn.pgm" + rest, "torn"},
-      {"image: huge.pgm" + rest, "torn"},
-      {"image: text.pgm" + rest, "P5"},
-      {"image: deep.pgm" + rest, "65535"},
-      {"image: short.pgm" + rest, "P5"},
-      {"image: none.pgm" + rest, "none.pgm"},
-      {rest, "image"},
-      {"image: ok.pgm\n", "resolution"},
-      {"image: ok.pgm\nresolution: wide\n", "resolution"},
-      {"image: ok.pgm\nresolution: 0\n", "resolution"},
-      {"image: ok.pgm\nresolution: 1\norigin: [0, 0]\n", "origin"},
-      {"image: ok.pgm\nresolution: 1\norigin: [0, 0, 1]\n", "turned"},
-      {"", "resolution"}};
-  for (const auto& [text, expected] : cases) {
-    const auto path = folder.write("map.yaml", text);
-    const std::string sentence = error_of([&] { read_navigation_grid(path); });
-    EXPECT_NE(sentence.find(expected), std::string::npos) << sentence;
+TEST(InflateGrid, MakesAPostADisc) {
+  NavigationGrid grid{.rows = 5, .cols = 5, .resolution = 0.1, .origin = {0, 0}, .cells = {}};
+  grid.cells.assign(25, kFree);
+  grid.occupancy.assign(25, 12);
+  grid.cells[12] = kOccupied;
+  grid.occupancy[12] = 97;
+  inflate(grid, 0.2);
+  const std::string expected =
+      "..#.."
+      ".###."
+      "#####"
+      ".###."
+      "..#..";
+  for (std::size_t i = 0; i < 25; ++i) {
+    EXPECT_EQ(grid.cells[i], expected[i] == '#' ? kOccupied : kFree) << i;
+    EXPECT_EQ(grid.occupancy[i], expected[i] == '#' ? 100 : 12) << i;
   }
-  EXPECT_NE(error_of([&] { read_navigation_grid(folder / "x.yaml"); }).find("no such file"),
-            std::string::npos);
 }
 
-TEST(NavigationGridFile, WritesBothFilesOrNone) {
-  const TemporaryFolder folder;
-  const auto write_to = [&](const std::filesystem::path& path) {
-    return error_of([&] { write_navigation_grid(path, sample_grid()); });
-  };
-  EXPECT_NE(write_to(folder / "none" / "map.yaml").find("cannot write"), std::string::npos);
-  EXPECT_NE(write_to(folder / "map.png").find(".yaml"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
-  std::filesystem::create_directory(folder / "map.yaml");  // the second file cannot be written
-  EXPECT_NE(write_to(folder / "map.yaml").find("cannot write"), std::string::npos);
-  EXPECT_FALSE(std::filesystem::exists(folder / "map.pgm"));
-  NavigationGrid uneven = sample_grid();
-  uneven.cells.pop_back();
-  EXPECT_NE(error_of([&] { write_navigation_grid(folder / "a.yaml", uneven); }).find("2 x 3"),
-            std::string::npos);
+TEST(InflateGrid, LeavesAnEmptyGridAndOneWithoutObstaclesAlone) {
+  NavigationGrid empty;
+  inflate(empty, 1);
+  EXPECT_TRUE(empty.cells.empty());
+  NavigationGrid grid{.rows = 1, .cols = 2, .resolution = 1, .origin = {0, 0}, .cells = {}};
+  grid.cells = {kFree, kUnknown};
+  inflate(grid, 10);
+  EXPECT_EQ(grid.cells, (std::vector<std::uint8_t>{kFree, kUnknown}));
+  EXPECT_NE(error_of([&] { inflate(grid, -1); }).find("radius"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/parallel.hpp>
+#include <facula/map/coarse_map.hpp>
+#include <facula/map/frontiers.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace facula {
+namespace {
+
+void require_positive(const char* field, double value) {
+  require(std::isfinite(value) && value > 0,
+          "FrontierOptions: expected ",
+          field,
+          " above 0 m, got ",
+          value);
+}
+
+/// Directions spread evenly over the sphere (Fibonacci lattice, Gonzalez 2010).
+std::vector<Eigen::Vector3d> sphere(std::size_t count) {
+  const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+  std::vector<Eigen::Vector3d> directions;
+  directions.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto k = static_cast<double>(i);
+    const double z = 1 - (2 * k + 1) / static_cast<double>(count);
+    const double radius = std::sqrt(1 - z * z);
+    directions.emplace_back(
+        radius * std::cos(golden_angle * k), radius * std::sin(golden_angle * k), z);
+  }
+  return directions;
+}
+
+/// As many rays as put one into every cell at the full range.
+std::size_t ray_count(const FrontierOptions& options, double edge) {
+  const double cells = 4 * std::numbers::pi * std::pow(options.range / edge, 2);
+  return static_cast<std::size_t>(std::clamp(cells, 100.0, static_cast<double>(options.most_rays)));
+}
+
+/// An unknown cell and the region of the frontier through which it was seen.
+struct SeenCell {
+  std::size_t cell = 0;
+  int region = FrontierRegions::kNone;
+};
+
+/// What there is to see, and what was crossed off.
+struct Scene {
+  const CoarseMap& map;
+  const FrontierRegions& frontiers;
+  std::vector<Eigen::Vector3d> directions;
+  double range = 0;
+  std::vector<bool> crossed_off;
+
+  /// The distinct unknown cells seen from a place that are not crossed off.
+  std::vector<SeenCell> seen_from(const Eigen::Vector3d& position) const {
+    return seen_from(position, crossed_off);
+  }
+  std::vector<SeenCell> seen_from(const Eigen::Vector3d& position, std::vector<bool> met) const {
+    std::vector<SeenCell> seen;
+    for (const Eigen::Vector3d& direction : directions) {
+      int region = FrontierRegions::kNone;
+      walk_coarse(map, position, direction, range, [&](std::size_t cell) {
+        const CellState state = map.cells[cell];
+        if (state == CellState::kOccupied) return false;
+        if (state == CellState::kFree) {
+          region = frontiers.region_of[cell];
+        } else if (!met[cell]) {
+          met[cell] = true;
+          seen.push_back({cell, region});
+        }
+        return true;
+      });
+    }
+    return seen;
+  }
+
+  double volume(std::size_t cells) const {
+    return static_cast<double>(cells) * map.edge * map.edge * map.edge;
+  }
+};
+
+/// The suggestion for a place and what is seen from it.
+ScanSuggestion describe(const Scene& scene,
+                        const Eigen::Vector3d& position,
+                        const std::vector<SeenCell>& seen) {
+  std::vector<std::size_t> through(scene.frontiers.regions.size(), 0);
+  for (const SeenCell& cell : seen) {
+    if (cell.region != FrontierRegions::kNone) ++through[static_cast<std::size_t>(cell.region)];
+  }
+  ScanSuggestion suggestion;
+  suggestion.position = position;
+  suggestion.volume = scene.volume(seen.size());
+  suggestion.volume_alone =
+      scene.volume(scene.seen_from(position, std::vector<bool>(scene.crossed_off.size())).size());
+  const auto most = std::max_element(through.begin(), through.end());
+  if (most == through.end() || *most == 0) return suggestion;
+  suggestion.region = scene.frontiers.regions[static_cast<std::size_t>(most - through.begin())];
+  suggestion.region_volume = scene.volume(*most);
+  return suggestion;
+}
+
+/// Unknown cells seen from every place.
+std::vector<std::size_t> gains_of(const Scene& scene,
+                                  const StandArea& area,
+                                  const std::vector<std::size_t>& places,
+                                  int num_threads) {
+  std::vector<std::size_t> gains(places.size(), 0);
+  parallel_for(places.size(),
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                   gains[i] = scene.seen_from(area.position(places[i])).size();
+                 }
+               },
+               {.num_threads = num_threads, .chunk = 1});
+  return gains;
+}
+
+/// Climbs from a place of the lattice to a better one between, in steps that get shorter.
+std::size_t climb(const Scene& scene, const StandArea& area, std::size_t place, int num_threads) {
+  std::size_t gain = scene.seen_from(area.position(place)).size();
+  for (int step = area.stride / 2; step >= 1 && step * area.resolution > scene.map.edge / 4;) {
+    const std::vector<std::size_t> places = area.around(place, step);
+    const std::vector<std::size_t> gains = gains_of(scene, area, places, num_threads);
+    const auto best = std::max_element(gains.begin(), gains.end());
+    if (best == gains.end() || *best <= gain) {
+      step /= 2;
+      continue;
+    }
+    gain = *best;
+    place = places[static_cast<std::size_t>(best - gains.begin())];
+  }
+  return place;
+}
+
+/// Takes the best place, crosses off what it sees, and so on. Gains only shrink, so that a place
+/// whose gain was just counted anew and still is the largest is the best one.
+std::vector<ScanSuggestion> choose(Scene& scene,
+                                   const StandArea& area,
+                                   const FrontierOptions& options) {
+  std::vector<std::size_t> gains = gains_of(scene, area, area.lattice, options.num_threads);
+  std::vector<ScanSuggestion> suggestions;
+  while (suggestions.size() < options.count) {
+    const auto best = std::max_element(gains.begin(), gains.end());
+    if (*best == 0 || scene.volume(*best) < options.min_volume) break;
+    std::size_t place = area.lattice[static_cast<std::size_t>(best - gains.begin())];
+    const std::size_t gain = scene.seen_from(area.position(place)).size();
+    const bool still_best = gain == std::exchange(*best, gain);
+    if (!still_best) continue;
+    place = climb(scene, area, place, options.num_threads);
+    const std::vector<SeenCell> seen = scene.seen_from(area.position(place));
+    suggestions.push_back(describe(scene, area.position(place), seen));
+    for (const SeenCell& cell : seen) scene.crossed_off[cell.cell] = true;
+  }
+  return suggestions;
+}
+
+}  // namespace
+
+void FrontierOptions::check() const {
+  stand.check();
+  require_positive("range", range);
+  require_positive("view_cell", view_cell);
+  require_positive("region_length", region_length);
+  require(std::isfinite(margin) && margin >= 0,
+          "FrontierOptions: expected margin of 0 m or more, got ",
+          margin);
+  require(std::isfinite(min_volume) && min_volume >= 0,
+          "FrontierOptions: expected min_volume of 0 m^3 or more, got ",
+          min_volume);
+  require(most_rays >= 100, "FrontierOptions: expected most_rays of 100 or more, got ", most_rays);
+}
+
+Frontiers find_frontiers(const OccupancyMap& map,
+                         const Floor& floor,
+                         const FrontierOptions& options) {
+  options.check();
+  const CoarseMap coarse =
+      coarse_map(map, {.least_edge = options.view_cell, .margin = options.margin});
+  const FrontierRegions regions = frontier_regions(coarse, options.region_length);
+  const StandArea area = find_standpoints(map, floor, options.stand);
+  Scene scene{.map = coarse,
+              .frontiers = regions,
+              .directions = sphere(ray_count(options, coarse.edge)),
+              .range = options.range,
+              .crossed_off = std::vector<bool>(coarse.cells.size(), false)};
+  Frontiers result{.cell = coarse.edge,
+                   .cells = regions.cells,
+                   .regions = regions.regions.size(),
+                   .standpoints = area.lattice.size(),
+                   .rays = scene.directions.size(),
+                   .suggestions = {}};
+  result.suggestions = choose(scene, area, options);
+  return result;
+}
+
+}  // namespace facula
