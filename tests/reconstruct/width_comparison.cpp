@@ -5,7 +5,6 @@
 #include <facula/tests/reconstruct/width_comparison.hpp>
 #include <facula/tests/reconstruct/width_judge_cgal.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace facula {
@@ -21,8 +20,12 @@ WidthComparison compare_widths(unsigned clouds) {
       continue;
     }
     ++result.judged;
+    result.flat_is_zero = result.flat_is_zero && !cloud.flat;
     const double judged = judged_width(cloud.points, cloud.unit);
-    result.worst = std::max(result.worst, std::abs(own - judged) / judged);
+    const double off = std::abs(own - judged) / judged;
+    if (off < result.worst) continue;
+    result.worst = off;
+    result.worst_kind = cloud.kind + " " + std::to_string(seed);
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <facula/reconstruct/measure/convex_hull_filter.hpp>
 #include <facula/reconstruct/measure/width.hpp>
 #include <facula/tests/reconstruct/width_clouds.hpp>
+#include <facula/tests/reconstruct/width_comparison.hpp>
 #include <facula/tests/reconstruct/width_judge_cgal.hpp>
 
 #include <algorithm>
@@ -31,17 +32,11 @@ Points plate(std::size_t count, double thickness, unsigned seed) {
 }
 
 TEST(Width, EqualsTheExactJudgeOnCloudsOfAllKinds) {
-  for (unsigned seed = 0; seed < 150; ++seed) {
-    const WidthCloud cloud = width_cloud(seed);
-    const Width width = width_of(cloud.points);
-    if (convex_hull_3d(cloud.points).dimension < 3) {
-      EXPECT_EQ(width.width, 0) << cloud.kind << " " << seed;
-      continue;
-    }
-    EXPECT_FALSE(cloud.flat) << cloud.kind << " " << seed;
-    const double judged = judged_width(cloud.points, cloud.unit);
-    EXPECT_NEAR(width.width, judged, 1e-12 * judged) << cloud.kind << " " << seed;
-  }
+  const WidthComparison found = compare_widths(150);
+  EXPECT_LE(found.worst, 1e-12) << found.worst_kind;
+  EXPECT_TRUE(found.flat_is_zero);
+  EXPECT_GT(found.judged, 100U);
+  EXPECT_GT(found.flat, 20U);
 }
 
 TEST(Width, EqualsTheExactJudgeWhereMostPointsAreFilteredOut) {
