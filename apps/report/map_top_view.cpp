@@ -22,6 +22,7 @@ constexpr Color kFreeColor{255, 255, 255};
 constexpr Color kOccupiedColor{30, 34, 42};
 constexpr Color kUnknownColor{218, 222, 228};
 constexpr Color kPoseColor{196, 44, 48};
+constexpr const char* kScanMark = "scan, stroke along its x axis";
 constexpr double kMostCells = 4000;  // of a height map along its longer side [1]
 
 /// A map's picture and where the world is on it.
@@ -35,15 +36,6 @@ struct MapPlot {
     const Eigen::Vector2d offset = (world - low) * pixels_per_metre;
     return {area.x - 0.5 + offset.x(), area.y + area.height - 0.5 - offset.y()};
   }
-};
-
-/// The highest occupied cell of every column.
-struct HeightMap {
-  int rows = 0;
-  int cols = 0;
-  double cell = 0;                                // [m]
-  Eigen::Vector2d low = Eigen::Vector2d::Zero();  // [m]
-  std::vector<float> height;                      // [m], row 0 at the largest y; NaN where none
 };
 
 std::uint8_t most_telling(const NavigationGrid& grid, const CellBlock& block) {
@@ -87,10 +79,8 @@ void draw_poses(MapPlot& plot, const std::vector<RigidTransform>& world_from_sca
 }
 
 /// The legend with a scale bar at its right end.
-Image8 map_foot(std::vector<LegendEntry> entries,
-                const std::vector<RigidTransform>& poses,
-                const MapPlot& plot) {
-  if (!poses.empty()) entries.push_back({kPoseColor, "scan, stroke along its x axis"});
+Image8 map_foot(std::vector<LegendEntry> entries, const std::string& marks, const MapPlot& plot) {
+  if (!marks.empty()) entries.push_back({kPoseColor, marks});
   const int bar_room = plot.canvas.cols / 4 + 40;
   const Image8 strip = legend(entries, std::max(200, plot.canvas.cols - bar_room));
   Image8 foot = make_canvas(std::max(48, strip.rows), strip.cols + bar_room);
@@ -108,7 +98,8 @@ void for_each_occupied(const OccupancyMap& map,
   });
 }
 
-HeightMap height_map(const OccupancyMap& map, double cut_height) {
+/// The highest occupied cell of every column, in cells large enough for any extent.
+HeightMap drawn_heights(const OccupancyMap& map, double cut_height) {
   HeightMap heights;
   Eigen::AlignedBox2d box;
   for_each_occupied(map, cut_height, [&](const Eigen::Vector3d& center, double edge) {
@@ -116,26 +107,28 @@ HeightMap height_map(const OccupancyMap& map, double cut_height) {
     box.extend(center.head<2>() + Eigen::Vector2d::Constant(edge / 2));
   });
   if (box.isEmpty()) return heights;
-  heights.low = box.min();
-  heights.cell = std::max(map.resolution(), box.sizes().maxCoeff() / kMostCells);
-  heights.cols = std::max(1, static_cast<int>(std::lround(box.sizes().x() / heights.cell)));
-  heights.rows = std::max(1, static_cast<int>(std::lround(box.sizes().y() / heights.cell)));
-  heights.height.assign(static_cast<std::size_t>(heights.rows) * heights.cols,
-                        std::numeric_limits<float>::quiet_NaN());
+  heights.origin = box.min();
+  heights.resolution = std::max(map.resolution(), box.sizes().maxCoeff() / kMostCells);
+  heights.cols = std::max(1, static_cast<int>(std::lround(box.sizes().x() / heights.resolution)));
+  heights.rows = std::max(1, static_cast<int>(std::lround(box.sizes().y() / heights.resolution)));
+  heights.top.assign(static_cast<std::size_t>(heights.rows) * heights.cols,
+                     std::numeric_limits<float>::quiet_NaN());
   const auto span = [&](double center, double edge, double low, int count) {
-    const auto begin = static_cast<int>(std::floor((center - edge / 2 - low) / heights.cell + 0.5));
-    const auto end = static_cast<int>(std::floor((center + edge / 2 - low) / heights.cell + 0.5));
+    const auto begin =
+        static_cast<int>(std::floor((center - edge / 2 - low) / heights.resolution + 0.5));
+    const auto end =
+        static_cast<int>(std::floor((center + edge / 2 - low) / heights.resolution + 0.5));
     const int first = std::clamp(begin, 0, count - 1);
     return std::array<int, 2>{first, std::clamp(end, first + 1, count)};
   };
   for_each_occupied(map, cut_height, [&](const Eigen::Vector3d& center, double edge) {
-    const auto cols = span(center.x(), edge, heights.low.x(), heights.cols);
-    const auto rows = span(center.y(), edge, heights.low.y(), heights.rows);
+    const auto cols = span(center.x(), edge, heights.origin.x(), heights.cols);
+    const auto rows = span(center.y(), edge, heights.origin.y(), heights.rows);
     const auto top = static_cast<float>(center.z() + edge / 2);
     for (int y = rows[0]; y < rows[1]; ++y) {
       for (int x = cols[0]; x < cols[1]; ++x) {
         float& height =
-            heights.height[static_cast<std::size_t>(heights.rows - 1 - y) * heights.cols + x];
+            heights.top[static_cast<std::size_t>(heights.rows - 1 - y) * heights.cols + x];
         if (!(height >= top)) height = top;
       }
     }
@@ -147,7 +140,7 @@ float highest(const HeightMap& heights, const CellBlock& block) {
   float result = std::numeric_limits<float>::quiet_NaN();
   for (int row = block.row_begin; row < block.row_end; ++row) {
     for (int col = block.col_begin; col < block.col_end; ++col) {
-      const float height = heights.height[static_cast<std::size_t>(row) * heights.cols + col];
+      const float height = heights.top[static_cast<std::size_t>(row) * heights.cols + col];
       if (!(result >= height) && std::isfinite(height)) result = height;
     }
   }
@@ -165,7 +158,8 @@ GridLayout map_layout(const NavigationGrid& grid) {
 }
 
 Image8 map_top_view(const NavigationGrid& grid,
-                    const std::vector<RigidTransform>& world_from_scan) {
+                    const std::vector<RigidTransform>& world_from_scan,
+                    const std::string& marks) {
   if (grid.rows < 1 || grid.cols < 1) return empty_picture("The navigation grid has no cells.");
   require(grid.cells.size() == static_cast<std::size_t>(grid.rows) * grid.cols,
           "a grid of ",
@@ -187,27 +181,40 @@ Image8 map_top_view(const NavigationGrid& grid,
   draw_poses(plot, world_from_scan);
   const std::vector<LegendEntry> entries{
       {kFreeColor, "free"}, {kOccupiedColor, "occupied"}, {kUnknownColor, "unknown"}};
-  return below({plot.canvas, map_foot(entries, world_from_scan, plot)});
+  return below({plot.canvas, map_foot(entries, world_from_scan.empty() ? "" : marks, plot)});
 }
 
-Image8 map_top_view(const OccupancyMap& map,
-                    const std::vector<RigidTransform>& world_from_scan,
-                    double cut_height) {
-  const HeightMap heights = height_map(map, cut_height);
-  if (heights.height.empty()) return empty_picture("The map has no occupied cell.");
-  const ValueRange range = robust_range(heights.height, 0.001);
+Image8 map_top_view(const HeightMap& heights, const std::vector<RigidTransform>& world_from_scan) {
+  require(heights.rows > 0 && heights.cols > 0 && heights.top.size() == heights.size(),
+          "a height map of ",
+          heights.rows,
+          " x ",
+          heights.cols,
+          " needs as many heights, not ",
+          heights.top.size());
+  const ValueRange range = robust_range(heights.top, 0.001);
   const ColorScale scale{ColorMap::kViridis, range.low, range.high, "height z [m]"};
   const GridLayout layout = square_layout(heights.rows, heights.cols);
   const Image8 cells = paint_grid(layout, [&](const CellBlock& block) {
     const float height = highest(heights, block);
     return std::isnan(height) ? kFreeColor : scale.at(height);
   });
-  const Eigen::Vector2d upper_left = heights.low + Eigen::Vector2d(0, heights.rows * heights.cell);
-  MapPlot plot = map_plot(cells, upper_left, layout.scale_x / (heights.cell * layout.step_x));
+  const Eigen::Vector2d upper_left =
+      heights.origin + Eigen::Vector2d(0, heights.rows * heights.resolution);
+  MapPlot plot = map_plot(cells, upper_left, layout.scale_x / (heights.resolution * layout.step_x));
   draw_poses(plot, world_from_scan);
-  const Image8 foot = map_foot({{kFreeColor, "nothing occupied"}}, world_from_scan, plot);
+  const Image8 foot =
+      map_foot({{kFreeColor, "nothing occupied"}}, world_from_scan.empty() ? "" : kScanMark, plot);
   const Image8 bar = color_bar(scale, plot.canvas.rows - kPlotMargin.height + 14);
   return below({beside({plot.canvas, bar}), foot});
+}
+
+Image8 map_top_view(const OccupancyMap& map,
+                    const std::vector<RigidTransform>& world_from_scan,
+                    double cut_height) {
+  const HeightMap heights = drawn_heights(map, cut_height);
+  if (heights.top.empty()) return empty_picture("The map has no occupied cell.");
+  return map_top_view(heights, world_from_scan);
 }
 
 }  // namespace facula
