@@ -2,6 +2,7 @@
 #include <facula/map/log_odds_brick.hpp>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace facula {
@@ -42,6 +43,14 @@ std::size_t words_for_floats(std::size_t count) {
 constexpr std::size_t kWordsOfCells = 8 + kCellsPerBrick / 2;
 
 }  // namespace
+
+LogOddsModel LogOddsModel::with_hit(int eighths) const {
+  const double sure = 1 / (1 + std::exp(-static_cast<double>(hit)));
+  const double probability = 0.5 + (sure - 0.5) * eighths / 8;
+  LogOddsModel model = *this;
+  model.hit = static_cast<float>(std::log(probability / (1 - probability)));
+  return model;
+}
 
 const float* LogOddsBrick::floats_after(std::size_t words) const {
   return reinterpret_cast<const float*>(words_.get() + words);

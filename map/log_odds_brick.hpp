@@ -20,6 +20,9 @@ struct LogOddsModel {
   float max = 0;   ///< largest [1]
 
   /// OctoMap's updateNode(): a value already at its bound, or beyond it, stays as it is.
+  /// With a hit that counts so many eighths: its probability's excess over one half is that share.
+  LogOddsModel with_hit(int eighths) const;
+
   float after_hit(float value) const { return value >= max ? value : clamped(value + hit); }
   float after_miss(float value) const { return value <= min ? value : clamped(value + miss); }
 
@@ -48,6 +51,11 @@ class LogOddsBrick {
 
   /// None where the cell (cell_in_brick()) is unknown.
   std::optional<float> value(std::size_t cell) const;
+
+  /// The value of all cells, where there is only one and all are known.
+  std::optional<float> uniform() const {
+    return form_ == Form::kUniform ? std::optional<float>(uniform_) : std::nullopt;
+  }
 
   CellMask known() const;
 

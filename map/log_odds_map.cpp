@@ -10,18 +10,27 @@ namespace facula {
 void LogOddsMap::apply(std::span<const ScanBrick> scan,
                        const LogOddsModel& model,
                        int num_threads) {
-  std::vector<std::size_t> places(scan.size());
+  // What is said about one brick goes to one thread.
+  std::vector<std::size_t> first;
+  std::vector<std::size_t> places;
   for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (i > 0 && scan[i].code == scan[i - 1].code) continue;
     bool added = false;
-    places[i] = index_.find_or_add(scan[i].code, entries_.size(), &added);
+    first.push_back(i);
+    places.push_back(index_.find_or_add(scan[i].code, entries_.size(), &added));
     if (added) entries_.push_back({scan[i].code, {}});
   }
+  first.push_back(scan.size());
   const auto update = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      entries_[places[i]].brick.apply(scan[i].passed, scan[i].ended, model);
+      for (const ScanBrick& seen : scan.subspan(first[i], first[i + 1] - first[i])) {
+        const bool sure = seen.eighths == ScanBrick::kSure;
+        entries_[places[i]].brick.apply(
+            seen.passed, seen.ended, sure ? model : model.with_hit(seen.eighths));
+      }
     }
   };
-  parallel_for(scan.size(), update, {.num_threads = num_threads, .chunk = 512});
+  parallel_for(places.size(), update, {.num_threads = num_threads, .chunk = 512});
 }
 
 LogOddsBrick& LogOddsMap::find_or_add(std::uint64_t code) {

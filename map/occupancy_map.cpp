@@ -2,6 +2,7 @@
 #include <facula/acquire/core/atomic_file.hpp>
 #include <facula/acquire/core/error.hpp>
 #include <facula/map/map_file.hpp>
+#include <facula/map/map_folder.hpp>
 #include <facula/map/occupancy_map.hpp>
 #include <facula/map/octree_file.hpp>
 #include <facula/map/pruned_octree.hpp>
@@ -64,6 +65,7 @@ CastOptions OccupancyOptions::cast() const {
   return {.resolution = resolution,
           .max_range = max_range,
           .discretize = discretize,
+          .weigh_sigma = weigh_sigma,
           .box = box,
           .num_threads = num_threads};
 }
@@ -154,6 +156,7 @@ void OccupancyMap::write(const std::filesystem::path& path) const {
 
 OccupancyMap OccupancyMap::read(const std::filesystem::path& path) {
   if (is_map_file(path)) return read_map_file(path).map;
+  if (is_block_index(path)) return read_map_folder(path);
   OctreeContent content = read_octree(path, OccupancyOptions().model());
   OccupancyMap map({.resolution = content.resolution});
   map.bricks_ = std::move(content.map);

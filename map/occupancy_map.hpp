@@ -23,8 +23,9 @@ struct OccupancyOptions {
   double clamp_min = 0.1192;  ///< least probability a cell can reach [1], 0 to 0.5
   double clamp_max = 0.971;   ///< largest [1], 0.5 to 1
   bool discretize = false;    ///< one ray per cell that points lie in, to its middle
+  bool weigh_sigma = false;   ///< points unsure of their cell hit it less; OctoMap does not
   std::optional<MapBox> box = std::nullopt;  ///< only rays that end in it count
-  int num_threads = 0;        ///< 0 = all cores [1]
+  int num_threads = 0;                       ///< 0 = all cores [1]
 
   /// Throws Error naming the field, its value and its bound.
   void check() const;
@@ -93,9 +94,9 @@ class OccupancyMap {
   /// all.
   void write(const std::filesystem::path& path) const;
 
-  /// Reads .ot, .bt or .fmap, whichever the file's first line says. Options other than the
-  /// resolution are the defaults, but for .fmap, which has them. Throws Error when the file is
-  /// missing, torn, or none of these.
+  /// Reads .ot, .bt, .fmap or the index of a map in blocks (map_folder.hpp), whichever the file's
+  /// first line says. Options other than the resolution are the defaults, but for the latter two,
+  /// which have them. Throws Error when the file is missing, torn, or none of these.
   static OccupancyMap read(const std::filesystem::path& path);
 
   LogOddsMap& bricks() { return bricks_; }

@@ -13,9 +13,6 @@
 namespace facula {
 namespace {
 
-/// Most bricks a file may ask for: 1 GB of memory where every one holds one value.
-constexpr std::size_t kMaxBricks = std::size_t{1} << 25;
-
 /// Fewest digits (6 as OctoMap writes, else 17) that read back as the same number: OctoMap alone
 /// would write a resolution of 1/30 m as another one.
 int digits_for(double resolution) {
@@ -47,7 +44,8 @@ void write_header(std::ostream& stream,
 /// Puts the leaves of a file into bricks.
 class LeafCollector {
  public:
-  LeafCollector(LogOddsMap& map, const std::string& name) : map_(map), name_(name) {}
+  LeafCollector(LogOddsMap& map, const std::string& name, std::size_t max_bricks)
+      : map_(map), name_(name), max_bricks_(max_bricks) {}
 
   void add(const OctreeLeaf& leaf) {
     if (leaf.level >= kBrickLevel) return add_bricks(leaf);
@@ -80,11 +78,11 @@ class LeafCollector {
   void add_bricks(const OctreeLeaf& leaf) {
     const std::size_t count = std::size_t{1} << (3 * (leaf.level - kBrickLevel));
     bricks_ += count;
-    require(bricks_ <= kMaxBricks,
+    require(bricks_ <= max_bricks_,
             "'",
             name_,
             "' declares more space free or occupied than can be held: its leaves make more than ",
-            kMaxBricks,
+            max_bricks_,
             " bricks of 8 x 8 x 8 cells");
     const std::uint64_t first = brick_code(leaf.first);
     for (std::size_t i = 0; i < count; ++i) map_.find_or_add(first + i).fill(leaf.value);
@@ -95,6 +93,7 @@ class LeafCollector {
   LogOddsBrick::Values values_{};
   CellMask known_;
   std::uint64_t code_ = 0;
+  std::size_t max_bricks_;
   std::size_t bricks_ = 0;
 };
 
@@ -118,11 +117,12 @@ void append_bytes(std::string& bytes, const void* data, std::size_t count) {
 
 OctreeContent parse_octree(std::string_view file,
                            const LogOddsModel& model,
-                           const std::string& name) {
+                           const std::string& name,
+                           std::size_t max_leaf_bricks) {
   const OctreeHeader header = parse_octree_header(file, name);
   OctreeContent content{.resolution = header.resolution, .map = {}};
   check_octree_nodes(header, file, name);
-  LeafCollector collector(content.map, name);
+  LeafCollector collector(content.map, name, max_leaf_bricks);
   for_each_octree_leaf(
       header, file, {model.min, model.max}, [&](const OctreeLeaf& leaf) { collector.add(leaf); });
   collector.finish();

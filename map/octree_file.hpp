@@ -3,12 +3,17 @@
 
 #include <facula/map/log_odds_map.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
 #include <string_view>
 
 namespace facula {
+
+/// Most bricks that the large leaves of a file may ask for: 700 MB. A hundred bytes can declare all of
+/// space to be free.
+constexpr std::size_t kMaxLeafBricks = std::size_t{1} << 24;
 
 /// A map and its resolution, as OctoMap's files hold them.
 struct OctreeContent {
@@ -21,7 +26,8 @@ struct OctreeContent {
 /// is torn or damaged, or its leaves cover more space than bricks can be made for.
 OctreeContent parse_octree(std::string_view file,
                            const LogOddsModel& model,
-                           const std::string& name);
+                           const std::string& name,
+                           std::size_t max_leaf_bricks = kMaxLeafBricks);
 
 /// The same from a file.
 OctreeContent read_octree(const std::filesystem::path& path, const LogOddsModel& model);

@@ -82,6 +82,10 @@ PrunedOctree::PrunedOctree(const LogOddsMap& map, const Reading& reading)
   std::vector<Summary>& lowest = levels_.emplace_back();
   lowest.reserve(bricks_.size());
   for (const LogOddsMap::Entry* entry : bricks_) {
+    if (const auto value = entry->brick.uniform()) {
+      lowest.push_back({entry->code, reading_ ? reading_(*value) : *value, true, 0});
+      continue;
+    }
     const BrickNodes nodes = nodes_of(entry->brick);
     lowest.push_back({entry->code, nodes.brick.value, nodes.brick.leaf, nodes.brick.children});
     if (nodes.brick.leaf) continue;
@@ -121,8 +125,10 @@ void PrunedOctree::add_level() {
 
 void PrunedOctree::visit_brick(std::size_t brick,
                                const std::function<void(const OctreeNode&)>& visit) const {
-  const BrickNodes nodes = nodes_of(bricks_[brick]->brick);
   const CellKey corner = first_cell(bricks_[brick]->code);
+  const Summary& summary = levels_.front()[brick];
+  if (summary.leaf) return visit({kBrickLevel, corner, summary.value, 0});
+  const BrickNodes nodes = nodes_of(bricks_[brick]->brick);
   const auto show = [&](int level, std::size_t place, const Node& node) {
     const std::uint64_t m = place << (3 * level);
     const auto part = [&](int axis) {
@@ -131,7 +137,7 @@ void PrunedOctree::visit_brick(std::size_t brick,
     visit({level, {part(0), part(1), part(2)}, node.value, node.children});
     return !node.leaf;
   };
-  if (!show(3, 0, nodes.brick)) return;
+  show(kBrickLevel, 0, nodes.brick);
   for (std::size_t i = 0; i < 8; ++i) {
     if (!nodes.fours[i].exists || !show(2, i, nodes.fours[i])) continue;
     for (std::size_t j = 8 * i; j < 8 * i + 8; ++j) {

@@ -5,6 +5,7 @@
 #include <facula/map/discretize.hpp>
 #include <facula/map/ray_walk.hpp>
 #include <facula/map/sparse_cells.hpp>
+#include <facula/map/weigh_hits.hpp>
 
 #include <algorithm>
 #include <mutex>
@@ -124,10 +125,11 @@ std::vector<ScanBrick> SparseCells::take_sorted() {
 ScanCells cells_of_scan(const PointCloud& cloud, const CastOptions& options) {
   PointCloud kept;
   const Rays rays = rays_of(cloud, options, kept);
-  if (!options.box) {
-    if (auto dense = dense_cells(rays, options)) return *std::move(dense);
-  }
-  return sparse_cells(rays, options);
+  std::optional<ScanCells> dense;
+  if (!options.box) dense = dense_cells(rays, options);
+  ScanCells cells = dense ? *std::move(dense) : sparse_cells(rays, options);
+  if (options.weigh_sigma) weigh_hits(cloud, options, cells);
+  return cells;
 }
 
 ScanCells cells_of_scan_reference(const PointCloud& cloud, const CastOptions& options) {
@@ -137,6 +139,7 @@ ScanCells cells_of_scan_reference(const PointCloud& cloud, const CastOptions& op
   ScanCells result;
   result.skipped = walk_sparse(rays, options, {0, rays.size()}, cells);
   result.bricks = cells.take_sorted();
+  if (options.weigh_sigma) weigh_hits(cloud, options, result);
   return result;
 }
 

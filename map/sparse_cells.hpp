@@ -36,7 +36,7 @@ class SparseCells {
   ScanBrick& brick(std::uint64_t code) {
     bool added = false;
     last_ = index_.find_or_add(code, bricks_.size(), &added);
-    if (added) bricks_.push_back({code, {}, {}});
+    if (added) bricks_.emplace_back().code = code;
     return bricks_[last_];
   }
 
