@@ -47,8 +47,9 @@ Command measure_angles_command() {
           "or square the width of the tolerance zone (ISO 1101) that holds the second about the "
           "first: of the fitted plane within its outline, and of the points, noise and form "
           "included. Then how far each plane leans from plumb or level. The uncertainties come "
-          "from the points' sigma (from the scatter where there is none), taken as independent; "
-          "--shared-range-mm adds what all points have wrong alike.",
+          "from the points' sigma (from the scatter where there is none), taken as independent, "
+          "and from the covariances of the scans' poses that poses.toml states; --shared-range-mm "
+          "adds what all points have wrong alike.",
       .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
                    "data/rigs/head_fs1500.toml --step-deg 3 "
                    "--position-mm -1500 -300 1100 --out room",

@@ -50,8 +50,9 @@ Command measure_distance_command() {
       .description =
           "Finds the planes in a cloud and gives the distance of every parallel pair: of the "
           "second's centre from the first, with its standard uncertainty, which grows where the "
-          "second lies beside the first's points. --shared-range-mm adds what all ranges have "
-          "wrong alike: it cancels in steps and counts twice between walls that face each other.",
+          "second lies beside the first's points and holds that of the scans' poses where "
+          "poses.toml states it. --shared-range-mm adds what all ranges have wrong alike: it "
+          "cancels in steps and counts twice between walls that face each other.",
       .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
                    "data/rigs/head_fs1500.toml --step-deg 3 "
                    "--position-mm -1500 -300 1100 --out room",
