@@ -14,20 +14,31 @@ namespace {
 
 constexpr int kPairs = 40;
 
-class PairCovariance : public testing::TestWithParam<PairMethod> {};
+struct Way {
+  PairMethod method;
+  bool with_sigma;
+};
+
+class PairCovariance : public testing::TestWithParam<Way> {};
 
 TEST_P(PairCovariance, HoldsTheTrueErrorInItsBounds) {
   double sum = 0;
   int inside = 0;
   for (int i = 0; i < kPairs; ++i) {
-    const SimulatedPair pair =
+    SimulatedPair pair =
         simulate_pair({.seed = 1000 + static_cast<std::uint64_t>(i), .rows = 60, .cols = 160});
+    if (!GetParam().with_sigma) {
+      pair.source.cloud.sigma.clear();
+      pair.target.cloud.sigma.clear();
+    }
     const RigidTransform guess =
         exp_se3(
             (Eigen::Matrix<double, 6, 1>() << 0.05, -0.04, 0.03, 0.02, -0.02, 0.03).finished()) *
         pair.target_from_source;
-    const PairResult result = register_pair(
-        build_pyramid(pair.source), build_pyramid(pair.target), guess, {.method = GetParam()});
+    const PairResult result = register_pair(build_pyramid(pair.source),
+                                            build_pyramid(pair.target),
+                                            guess,
+                                            {.method = GetParam().method});
     const Eigen::Matrix<double, 6, 1> error =
         log_se3(pair.target_from_source * result.target_from_source.inverse());
     const double nees = error.dot(result.covariance.ldlt().solve(error));
@@ -45,7 +56,10 @@ TEST_P(PairCovariance, HoldsTheTrueErrorInItsBounds) {
 
 INSTANTIATE_TEST_SUITE_P(Methods,
                          PairCovariance,
-                         testing::Values(PairMethod::kGeneralized, PairMethod::kPointToPlane));
+                         testing::Values(Way{PairMethod::kGeneralized, true},
+                                         Way{PairMethod::kPointToPlane, true},
+                                         Way{PairMethod::kGeneralized, false},
+                                         Way{PairMethod::kPointToPlane, false}));
 
 }  // namespace
 }  // namespace facula
