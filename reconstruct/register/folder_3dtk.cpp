@@ -150,17 +150,23 @@ PosedCloud read_scan(const fs::path& file, const RangeLimits& limits) {
   return scan;
 }
 
-}  // namespace
-
-ScanProject read_3dtk_folder(const fs::path& folder) {
-  const RangeLimits limits = read_limits(folder / "config.ini");
-  ScanProject project;
-  for (const fs::path& file : scan_files(folder)) project.scans.push_back(read_scan(file, limits));
-  return project;
+ListedScan listed(const fs::path& file, const RangeLimits& limits) {
+  return {.name = without_packing(file).stem().string(), .file = file, .read = [file, limits] {
+            return read_scan(file, limits);
+          }};
 }
 
-ScanProject read_3dtk_scan(const fs::path& file) {
-  return {{read_scan(file, read_limits(file.parent_path() / "config.ini"))}};
+}  // namespace
+
+std::vector<ListedScan> list_3dtk_folder(const fs::path& folder) {
+  const RangeLimits limits = read_limits(folder / "config.ini");
+  std::vector<ListedScan> scans;
+  for (const fs::path& file : scan_files(folder)) scans.push_back(listed(file, limits));
+  return scans;
+}
+
+ListedScan list_3dtk_scan(const fs::path& file) {
+  return listed(file, read_limits(file.parent_path() / "config.ini"));
 }
 
 }  // namespace facula

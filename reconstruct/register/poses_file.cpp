@@ -136,20 +136,36 @@ std::vector<double> upper_triangle(const Covariance& covariance) {
   return numbers;
 }
 
-PosedCloud read_scan_entry(const toml::table& table, const fs::path& path, std::size_t number) {
+/// What poses.toml says of a scan.
+struct ScanEntry {
+  fs::path file;
+  std::string name = {};
+  /// Wins over the VIEWPOINT of the scan's own file.
+  std::optional<RigidTransform> world_from_scan = {};
+  Covariance covariance = Covariance::Zero();
+};
+
+PosedCloud read_entry(const ScanEntry& entry) {
+  PosedCloud scan = read_scan_file(packed_or_plain(entry.file));
+  scan.name = entry.name;
+  scan.world_from_scan = entry.world_from_scan.value_or(scan.world_from_scan);
+  scan.pose_covariance = entry.covariance;
+  return scan;
+}
+
+ListedScan list_entry(const toml::table& table, const fs::path& path, std::size_t number) {
   const std::string where = name_of(path) + ", scan " + std::to_string(number);
   require_known_keys(
       table, {"name", "file", "translation_mm", "quaternion_xyzw", kCovariance}, where);
   const auto file = table["file"].value<std::string>();
   require(file && !file->empty(), where, ": missing the key file, the name of the scan's file");
-  PosedCloud scan = read_scan_file(packed_or_plain(path.parent_path() / *file));
-  scan.name = table["name"].value_or(scan.name);
-  // Where poses.toml gives a pose, it wins over the VIEWPOINT of the scan's own file.
+  ScanEntry entry{.file = path.parent_path() / *file};
+  entry.name = table["name"].value_or(without_packing(entry.file).stem().string());
   if (table.contains("translation_mm") || table.contains("quaternion_xyzw")) {
-    scan.world_from_scan = pose_of_scan(table, where);
+    entry.world_from_scan = pose_of_scan(table, where);
   }
-  scan.pose_covariance = covariance_of_scan(table, where);
-  return scan;
+  entry.covariance = covariance_of_scan(table, where);
+  return {.name = entry.name, .file = entry.file, .read = [entry] { return read_entry(entry); }};
 }
 
 /// A TOML float needs a point or an exponent.
@@ -175,7 +191,7 @@ std::string relative_name(const fs::path& file, const fs::path& folder) {
 
 }  // namespace
 
-ScanProject read_poses_file(const fs::path& path) {
+std::vector<ListedScan> list_poses_file(const fs::path& path) {
   const toml::table file = parse(path);
   require_known_keys(file, {"scan"}, name_of(path));
   const toml::array* entries = file["scan"].as_array();
@@ -184,11 +200,11 @@ ScanProject read_poses_file(const fs::path& path) {
           path.string(),
           "' names no scan: write a [[scan]] table with file, translation_mm, quaternion_xyzw for "
           "every scan");
-  ScanProject project;
+  std::vector<ListedScan> scans;
   for (const toml::node& entry : *entries) {
-    project.scans.push_back(read_scan_entry(*entry.as_table(), path, project.scans.size() + 1));
+    scans.push_back(list_entry(*entry.as_table(), path, scans.size() + 1));
   }
-  return project;
+  return scans;
 }
 
 void write_poses(const fs::path& path, const ScanProject& project) {

@@ -59,24 +59,30 @@ void set_sensor_in_front(PointCloud& cloud) {
   cloud.sensor_origin.assign(cloud.size(), origin.cast<float>());
 }
 
+PosedCloud read_mesh_line(const std::filesystem::path& file, const RigidTransform& pose) {
+  PosedCloud scan = read_scan_file(packed_or_plain(file));
+  if (scan.grid.empty()) set_sensor_in_front(scan.cloud);
+  scan.world_from_scan = pose;
+  return scan;
+}
+
 }  // namespace
 
-ScanProject read_stanford_conf(const std::filesystem::path& path) {
+std::vector<ListedScan> list_stanford_conf(const std::filesystem::path& path) {
   const std::string bytes = read_whole_file(path);
   std::string_view text = bytes;
-  ScanProject project;
+  std::vector<ListedScan> scans;
   for (int line_number = 1; !text.empty(); ++line_number) {
     std::string_view line = take_line(text);
     if (take_word(line) != "bmesh") continue;  // `camera` and `mesh` lines concern the renderer
-    const std::string name(take_word(line));
+    const std::filesystem::path file = path.parent_path() / std::string(take_word(line));
     const RigidTransform pose = parse_pose(line, {path, line_number});
-    PosedCloud scan = read_scan_file(packed_or_plain(path.parent_path() / name));
-    if (scan.grid.empty()) set_sensor_in_front(scan.cloud);
-    scan.world_from_scan = pose;
-    project.scans.push_back(std::move(scan));
+    scans.push_back({.name = without_packing(file).stem().string(),
+                     .file = file,
+                     .read = [file, pose] { return read_mesh_line(file, pose); }});
   }
-  require(!project.scans.empty(), "'", path.string(), "' names no scan: it has no `bmesh` line");
-  return project;
+  require(!scans.empty(), "'", path.string(), "' names no scan: it has no `bmesh` line");
+  return scans;
 }
 
 }  // namespace facula

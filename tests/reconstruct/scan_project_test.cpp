@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/scan_file.hpp>
+#include <facula/reconstruct/register/scan_list.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
 #include <facula/tests/support/matchers.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
@@ -109,6 +110,24 @@ PolarScan small_scan() {
     scan.set(scan.index(0, int(col)), {1, double(col), 0}, 0.5F, 0.001F);
   }
   return scan;
+}
+
+TEST(ListScans, OpensNoFileOfPoints) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("poses.toml",
+                                 "[[scan]]\nfile = \"a.xyz\"\nname = \"first\"\n"
+                                 "translation_mm = [1000, 0, 0]\n[[scan]]\nfile = \"b.xyz.gz\"\n");
+  const std::vector<ListedScan> scans = list_scans(file);
+  ASSERT_EQ(scans.size(), 2U);
+  EXPECT_EQ(scans[0].name, "first");
+  EXPECT_EQ(scans[1].name, "b");
+  EXPECT_EQ(scans[1].file, folder / "b.xyz.gz");
+  expect_error([&] { scans[0].read(); }, "a.xyz");
+  folder.write("a.xyz", kPoints);
+  const PosedCloud scan = scans[0].read();
+  EXPECT_EQ(scan.name, "first");
+  EXPECT_GT(scan.cloud.size(), 0U);
+  EXPECT_EQ(scan.world_from_scan.translation.x(), 1.0);
 }
 
 TEST(WritePoses, StatesTheCovarianceOfAPose) {
