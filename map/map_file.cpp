@@ -98,7 +98,7 @@ class MapAssembly {
     --cells_to_come_;
     const std::vector<ScanBrick> bricks = parse_scan_bricks(raw);
     std::vector<PackedBricks>& blocks = scans_.back().cells.blocks;
-    require(blocks.empty() || blocks.back().last < bricks.front().code,
+    require(blocks.empty() || blocks.back().last <= bricks.front().code,
             "the cells of the scan '",
             scans_.back().record.name,
             "' are not in the order of the octree");

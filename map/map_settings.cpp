@@ -12,6 +12,7 @@ void put_cast(Bytes& bytes, const CastOptions& options) {
   put(bytes, options.resolution);
   put(bytes, options.max_range);
   put(bytes, static_cast<std::uint8_t>(options.discretize ? 1 : 0));
+  put(bytes, static_cast<std::uint8_t>(options.weigh_sigma ? 1 : 0));
   put(bytes, static_cast<std::uint8_t>(options.box ? 1 : 0));
   const MapBox box = options.box.value_or(MapBox());
   for (const Eigen::Vector3f& corner : {box.min, box.max}) {
@@ -30,6 +31,7 @@ CastOptions take_cast(ByteReader& reader) {
   options.resolution = reader.take<double>();
   options.max_range = reader.take<double>();
   options.discretize = take_flag(reader);
+  options.weigh_sigma = take_flag(reader);
   const bool has_box = take_flag(reader);
   MapBox box;
   for (Eigen::Vector3f* corner : {&box.min, &box.max}) {
@@ -70,6 +72,7 @@ OccupancyOptions parse_map_options(ByteView bytes) {
   OccupancyOptions options{.resolution = cast.resolution,
                            .max_range = cast.max_range,
                            .discretize = cast.discretize,
+                           .weigh_sigma = cast.weigh_sigma,
                            .box = cast.box};
   for (double* p : {&options.hit, &options.miss, &options.clamp_min, &options.clamp_max}) {
     *p = reader.take<double>();

@@ -9,6 +9,12 @@
 #include <algorithm>
 
 namespace facula {
+namespace {
+
+/// What hits may count: 8 to 1 eighths.
+constexpr std::uint64_t kSharesOfHit = 8;
+
+}  // namespace
 
 std::size_t PackedCells::memory_usage() const {
   std::size_t bytes = sizeof *this + blocks.capacity() * sizeof(PackedBricks);
@@ -20,9 +26,10 @@ Bytes scan_bricks_bytes(std::span<const ScanBrick> bricks) {
   Bytes bytes;
   bytes.reserve(32 * bricks.size());
   put_varint(bytes, bricks.size());
-  BrickCodeWriter codes;
+  std::uint64_t before = 0;
   for (const ScanBrick& brick : bricks) {
-    codes.put(bytes, brick.code);
+    put_varint(bytes, kSharesOfHit * (brick.code - before) + (ScanBrick::kSure - brick.eighths));
+    before = brick.code;
     put_mask(bytes, brick.passed);
     put_mask(bytes, brick.ended);
   }
@@ -38,9 +45,14 @@ std::vector<ScanBrick> parse_scan_bricks(ByteView bytes) {
           " bricks in a block, got ",
           count);
   std::vector<ScanBrick> bricks(count);
-  BrickCodeReader codes;
+  std::uint64_t before = 0;
   for (ScanBrick& brick : bricks) {
-    brick.code = codes.take(reader);
+    const std::uint64_t number = take_varint(reader);
+    require(number / kSharesOfHit < kBrickCodeLimit - before,
+            "a brick lies outside the 65536 cells of an axis");
+    before += number / kSharesOfHit;
+    brick.code = before;
+    brick.eighths = static_cast<std::uint8_t>(ScanBrick::kSure - number % kSharesOfHit);
     brick.passed = take_mask(reader);
     brick.ended = take_mask(reader);
     require((brick.passed & brick.ended).none(), "a cell is both passed and ended in");

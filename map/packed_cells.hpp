@@ -38,8 +38,9 @@ ScanCells unpack(const PackedCells& cells);
 /// One block; throws Error where its bytes are damaged.
 std::vector<ScanBrick> unpack(const PackedBricks& block);
 
-/// A block of bricks before compression: number of bricks (LEB128), then per brick what its code
-/// adds to the code after the one before (LEB128), and its masks `passed` and `ended` (put_mask()).
+/// A block of bricks before compression: number of bricks (LEB128), then per brick eight times what
+/// its code adds to the one before plus 8 minus `eighths` (LEB128), and its masks `passed` and
+/// `ended` (put_mask()).
 Bytes scan_bricks_bytes(std::span<const ScanBrick> bricks);
 
 /// The way back; throws Error unless the bytes are such a block, exactly.

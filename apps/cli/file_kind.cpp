@@ -68,7 +68,7 @@ FileKind file_kind(const fs::path& path) {
   std::string extension = lower_extension(path);
   if (extension == ".gz" || extension == ".xz") extension = lower_extension(path.stem());
   if (extension == ".toml") return toml_kind(path);
-  if (extension == ".conf") return FileKind::kProject;
+  if (extension == ".conf" || extension == ".graph") return FileKind::kProject;
   if (extension == ".pcd") {
     return header_number(path, "HEIGHT") > 1 ? FileKind::kScan : FileKind::kCloud;
   }
@@ -78,16 +78,16 @@ FileKind file_kind(const fs::path& path) {
   for (const char* mesh : {".obj", ".stl", ".off", ".glb"}) {
     if (extension == mesh) return FileKind::kMesh;
   }
-  if (extension == ".bt" || extension == ".ot") return FileKind::kMap;
+  for (const char* map : {".bt", ".ot", ".fmap", ".blocks"}) {
+    if (extension == map) return FileKind::kMap;
+  }
   if (extension == ".yaml" || extension == ".yml") return FileKind::kGrid;
   for (const char* points : {".asc", ".xyz", ".txt", ".csv", ".3d"}) {
     if (extension == points) return FileKind::kCloud;
   }
   fail(
       "expected a file that facula reads (.toml, .flog, .pcd, .ply, .asc, .xyz, .obj, .stl, .off, "
-      ".glb, .bt, "
-      ".ot, "
-      ".yaml, .conf or a folder), got '",
+      ".glb, .bt, .ot, .fmap, .yaml, .conf, .graph or a folder), got '",
       path.string(),
       "'; convert it first");
 }

@@ -12,11 +12,11 @@ enum class FileKind {
   kScene,    ///< scene.toml
   kCapture,  ///< capture.toml, or a folder with one
   kLog,      ///< stripe log, .flog
-  kProject,  ///< poses.toml, *.conf, or a folder of 3DTK scans
+  kProject,  ///< poses.toml, *.conf, an OctoMap log (.graph), or a folder of 3DTK scans
   kScan,     ///< organised .pcd
   kCloud,    ///< points without a grid
   kMesh,     ///< .ply with faces, .obj, .stl, .off, .glb
-  kMap,      ///< .bt, .ot
+  kMap,      ///< .bt, .ot, .fmap, .blocks
   kGrid      ///< .yaml beside a .pgm
 };
 

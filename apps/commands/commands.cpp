@@ -14,6 +14,8 @@
 #include <facula/apps/commands/filter.hpp>
 #include <facula/apps/commands/info.hpp>
 #include <facula/apps/commands/map.hpp>
+#include <facula/apps/commands/map_diff.hpp>
+#include <facula/apps/commands/map_merge.hpp>
 #include <facula/apps/commands/measure_angles.hpp>
 #include <facula/apps/commands/measure_compare.hpp>
 #include <facula/apps/commands/measure_distance.hpp>
@@ -52,7 +54,9 @@ std::vector<Command> all_commands() {
        measure_profile_command(),
        measure_compare_command(),
        measure_two_line_command(),
-       map_command()});
+       map_command(),
+       map_merge_command(),
+       map_diff_command()});
   add("A head with a board",
       {calibrate_camera_command(),
        calibrate_laser_command(),

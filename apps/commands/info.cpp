@@ -9,6 +9,7 @@
 #include <facula/apps/commands/info_figures.hpp>
 #include <facula/apps/commands/log_figures.hpp>
 #include <facula/apps/commands/map_figures.hpp>
+#include <facula/apps/commands/octomap_log.hpp>
 #include <facula/reconstruct/mesh/mesh_exchange.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
 
@@ -26,10 +27,17 @@ void declare(Arguments& arguments, InfoArguments& a) {
   arguments.input(
       "FILE",
       a.file,
-      "a rig, scene, capture, stripe log, scan, cloud, mesh, project (poses.toml, .conf, folder), "
-      "map (.bt, .ot) or navigation grid (.yaml)");
+      "a rig, scene, capture, stripe log, scan, cloud, mesh, project (poses.toml, .conf, .graph, "
+      "folder), map (.bt, .ot, .fmap) or navigation grid (.yaml)");
   arguments.required();
   arguments.input("--frames", a.frames, "folder where the frames of a capture lie, if elsewhere");
+}
+
+ScanProject project_in(const std::filesystem::path& path) {
+  if (!is_octomap_log(path)) return read_scan_project(path);
+  ScanProject project;
+  for (const ListedScan& scan : list_log(path)) project.scans.push_back(scan.read());
+  return project;
 }
 
 void run(const InfoArguments& a, Session& session) {
@@ -49,7 +57,7 @@ void run(const InfoArguments& a, Session& session) {
     case FileKind::kLog:
       return describe(StripeLogReader(a.file), figures);
     case FileKind::kProject:
-      return describe(read_scan_project(a.file), figures);
+      return describe(project_in(a.file), figures);
     case FileKind::kScan:
       return describe(read_scan(a.file), figures);
     case FileKind::kCloud:
@@ -57,7 +65,8 @@ void run(const InfoArguments& a, Session& session) {
     case FileKind::kMesh:
       return describe(read_any_mesh(a.file), figures);
     case FileKind::kMap:
-      return report_map(OccupancyMap::read(a.file), figures);
+      return is_map_file(a.file) ? report_map_file(read_map_file(a.file), figures)
+                                 : report_map(OccupancyMap::read(a.file), figures);
     case FileKind::kGrid:
       return report_grid(read_navigation_grid(a.file), figures);
   }

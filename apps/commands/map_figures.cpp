@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/apps/cli/arguments.hpp>
 #include <facula/apps/commands/map_figures.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace facula {
 
@@ -16,6 +18,39 @@ void report_map(const OccupancyMap& map, Figures& figures) {
   figures.count("nodes", "nodes of the tree", statistics.nodes);
   figures.numbers("min_m", "lower corner", {low.x(), low.y(), low.z()}, 3);
   figures.numbers("max_m", "upper corner", {high.x(), high.y(), high.z()}, 3);
+}
+
+void report_map_file(const MapFile& file, Figures& figures) {
+  report_map(file.map, figures);
+  const OccupancyOptions& options = file.map.options();
+  figures.numbers("sensor_model",
+                  "probabilities hit, miss, clamps",
+                  {options.hit, options.miss, options.clamp_min, options.clamp_max},
+                  4);
+  figures.number("max_range_m", "maximum range (0 = none)", options.max_range, 3);
+  figures.count("kept_scans", "scans kept", file.scans.size());
+  if (file.scans.empty()) return;
+  FigureTable table{"scans",
+                    "Scans:",
+                    {{"name", "name", 0},
+                     {"points", "points", 0},
+                     {"x_m", "x", 3},
+                     {"y_m", "y", 3},
+                     {"z_m", "z", 3},
+                     {"rotation_deg", "turned by", 3},
+                     {"cells_kb", "cells kept", 1}},
+                    {}};
+  for (const KeptScan& scan : file.scans) {
+    const RigidTransform& pose = scan.record.world_from_scan;
+    table.rows.push_back({scan.record.name,
+                          static_cast<long long>(scan.record.points),
+                          pose.translation.x(),
+                          pose.translation.y(),
+                          pose.translation.z(),
+                          rotation_angle(pose) / kDegrees.factor,
+                          static_cast<double>(scan.cells.memory_usage()) / 1e3});
+  }
+  figures.table(std::move(table));
 }
 
 void report_grid(const NavigationGrid& grid, Figures& figures) {

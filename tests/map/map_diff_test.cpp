@@ -98,7 +98,7 @@ TEST(MapDiff, TakesWhatNobodySawBeforeForNewOnlyWhenAsked) {
 TEST(MapDiff, LeavesOutWhatMovedByTheSlackOrIsTooSmall) {
   const OccupancyMap before = room_with({{{10, 0, 0}, {11, 20, 20}}, {{2, 2, 2}, {3, 3, 3}}});
   const OccupancyMap after = room_with({{{11, 0, 0}, {12, 20, 20}}, {{6, 6, 6}, {7, 7, 8}}});
-  const MapDiff all = diff_maps(before, after);
+  const MapDiff all = diff_maps(before, after, {}, {.slack_cells = 0});
   ASSERT_EQ(all.clusters.size(), 4U);
   EXPECT_EQ(all.clusters[0].cells, 400U);
   const MapDiff moved = diff_maps(before, after, {}, {.slack_cells = 1});
@@ -134,7 +134,7 @@ TEST(MapDiff, AgreesWithALookAtEveryCellOfRandomMaps) {
   }
   ASSERT_GT(appeared, 100U);
   std::map<ChangeKind, std::size_t> found;
-  const MapDiff diff = diff_maps(before, after);
+  const MapDiff diff = diff_maps(before, after, {}, {.slack_cells = 0});
   for (const ChangedCell& cell : diff.cells) ++found[diff.clusters[cell.cluster].kind];
   EXPECT_EQ(found[ChangeKind::kAppeared], appeared);
   EXPECT_EQ(found[ChangeKind::kVanished], vanished);

@@ -22,6 +22,7 @@ OccupancyOptions odd_options() {
           .clamp_min = 0.1,
           .clamp_max = 0.98,
           .discretize = true,
+          .weigh_sigma = true,
           .box = MapBox{{-1, -2, -3}, {11, 12, 3}}};
 }
 
@@ -53,6 +54,7 @@ void expect_same_scans(std::span<const KeptScan> a, std::span<const KeptScan> b)
     EXPECT_EQ(a[i].record.cast.resolution, b[i].record.cast.resolution);
     EXPECT_EQ(a[i].record.cast.max_range, b[i].record.cast.max_range);
     EXPECT_EQ(a[i].record.cast.discretize, b[i].record.cast.discretize);
+    EXPECT_EQ(a[i].record.cast.weigh_sigma, b[i].record.cast.weigh_sigma);
     ASSERT_EQ(a[i].record.cast.box.has_value(), b[i].record.cast.box.has_value());
     if (a[i].record.cast.box) {
       EXPECT_EQ(a[i].record.cast.box->max, b[i].record.cast.box->max);
@@ -74,6 +76,7 @@ TEST(MapFile, KeepsTheMapItsOptionsAndItsScansToTheLastBit) {
     EXPECT_EQ(back.map.options().clamp_max, options.clamp_max);
     EXPECT_EQ(back.map.options().max_range, options.max_range);
     EXPECT_EQ(back.map.options().discretize, options.discretize);
+    EXPECT_EQ(back.map.options().weigh_sigma, options.weigh_sigma);
     EXPECT_EQ(back.map.options().box.has_value(), options.box.has_value());
   }
 }

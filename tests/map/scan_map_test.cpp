@@ -58,6 +58,20 @@ TEST(PackedCells, HoldTheFirstAndTheLastBrickOfSpaceWithFullMasks) {
   EXPECT_EQ(packed.blocks.front().raw_size, 1U + (1 + 4) + (6 + 4));
 }
 
+TEST(PackedCells, KeepWhatHitsOfUnsurePointsCount) {
+  PointCloud cloud = random_scan(1, 3000);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    cloud.sigma.push_back(0.01F * static_cast<float>(i % 30));
+  }
+  const ScanCells cells = cells_of_scan(cloud, {.resolution = kResolution, .weigh_sigma = true});
+  EXPECT_TRUE(unpack(pack(cells)).bricks == cells.bricks);
+  ScanMap scans({.resolution = kResolution, .weigh_sigma = true});
+  scans.add("sure", random_scan(2, 2000), {});
+  scans.add("unsure", cloud, {});
+  scans.remove("sure");
+  EXPECT_TRUE(is_same_map(scans.map(), inserted_anew(scans)));
+}
+
 TEST(PackedCells, TakeATenthOfTheCellsOfARoomAndAreTheSameForAnyThreads) {
   PointCloud room = random_scan(1, 100000);  // pushed out to the walls
   for (Eigen::Vector3f& x : room.points) {
