@@ -31,13 +31,18 @@ std::size_t cut_out(TriangleMesh& mesh,
   return remove_triangles(mesh, gone);
 }
 
-TriangleMesh filled(const TriangleMesh& mesh,
-                    const WatertightOptions& o,
-                    WatertightResult& result) {
+/// Repaired, without small pieces.
+TriangleMesh sound_part(const TriangleMesh& mesh,
+                        const WatertightOptions& o,
+                        WatertightResult& result) {
   std::size_t pieces = 0;
-  const TriangleMesh sound =
+  TriangleMesh sound =
       repaired(without_islands(repaired(mesh), {.min_area = o.least_piece}, &pieces));
   result.pieces_removed += pieces;
+  return sound;
+}
+
+TriangleMesh filled(const TriangleMesh& sound, WatertightResult& result) {
   std::size_t holes = 0;
   TriangleMesh closed = fill_holes(sound, std::numeric_limits<double>::infinity(), &holes);
   result.holes_filled += holes;
@@ -45,10 +50,10 @@ TriangleMesh filled(const TriangleMesh& mesh,
 }
 
 /// Fills every hole; where triangles cut each other, cuts wider and fills again.
-void close_by_filling(const TriangleMesh& mesh,
+void close_by_filling(const TriangleMesh& sound,
                       const WatertightOptions& o,
                       WatertightResult& result) {
-  result.mesh = filled(mesh, o, result);
+  result.mesh = filled(sound, result);
   for (int round = 0; round < o.rounds; ++round) {
     const auto pairs = self_intersections(result.mesh, o.num_threads);
     const auto flat = triangles_without_area(result.mesh);
@@ -57,8 +62,18 @@ void close_by_filling(const TriangleMesh& mesh,
     TriangleMesh open = result.mesh;
     result.triangles_cut += cut_out(open, pairs, 1 + round);
     if (open.empty()) return;
-    result.mesh = filled(open, o, result);
+    result.mesh = filled(sound_part(open, o, result), result);
   }
+}
+
+/// Whether nearly all of the surface is left: wider and wider cuts eat up sheets that are thin.
+bool is_left(const TriangleMesh& surface,
+             double reach,
+             const WatertightResult& result,
+             const WatertightOptions& o) {
+  if (result.triangles_cut == 0) return true;
+  if (result.verdict.statistics.area <= 0) return false;
+  return deviation_from_mesh(surface.vertices, result.mesh, o.num_threads).p95 <= reach;
 }
 
 double mean_edge(const TriangleMesh& mesh) {
@@ -111,20 +126,23 @@ WatertightResult make_watertight(const TriangleMesh& mesh,
   mesh.check();
   require(!mesh.empty(), "the mesh has no triangles; there is nothing to close");
   WatertightResult result;
-  close_by_filling(mesh, options, result);
+  const TriangleMesh sound = sound_part(mesh, options, result);
+  require(!sound.empty(), "the mesh has no triangle with an area; there is nothing to close");
+  close_by_filling(sound, options, result);
   require(!result.mesh.empty(), "nothing is left of the mesh but triangles that cut each other");
   result.verdict = judged(result.mesh, points, options);
   result.how = filling_sentence(result);
-  if (result.verdict.watertight()) return result;
-  const std::string wrong = result.verdict.sentence();
+  const double alpha = options.wrap_alpha > 0 ? options.wrap_alpha : 3 * mean_edge(mesh);
+  const bool left = is_left(sound, alpha, result, options);
+  if (left && result.verdict.watertight()) return result;
+  const std::string wrong = left ? result.verdict.sentence() : "too little of the surface";
   require(options.allow_wrap,
           "the mesh could not be made watertight: after ",
           result.how,
           " there remain: ",
           wrong,
           "; allow an alpha wrap, or smooth or remesh first");
-  const double alpha = options.wrap_alpha > 0 ? options.wrap_alpha : 3 * mean_edge(mesh);
-  result.mesh = wrap_mesh(result.mesh, {.alpha = alpha, .offset = 0});
+  result.mesh = wrap_mesh(left ? result.mesh : sound, {.alpha = alpha, .offset = 0});
   result.wrapped = true;
   result.verdict = judged(result.mesh, points, options);
   result.how = "wrapped at " + std::to_string(1000 * alpha) + " mm, since filling left " + wrong;
