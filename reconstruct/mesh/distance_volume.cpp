@@ -30,19 +30,22 @@ class ListedBytes {
  public:
   explicit ListedBytes(const DistanceVolumeOptions& options) : options_(options) {}
 
-  /// Throws where a list of `bytes` beside those that are complete would be too much.
-  void expect(double bytes) const {
-    if (bytes + static_cast<double>(complete_) > options_.max_memory) fail_for_memory(options_);
+  /// Throws where a list of `bytes` beside those that are complete would be too much, and from then
+  /// on always: the other threads shall not fill their lists first.
+  void expect(double bytes) {
+    if (bytes + complete_ <= options_.max_memory) return;
+    complete_ = std::numeric_limits<double>::infinity();
+    fail_for_memory(options_);
   }
 
   void complete(std::size_t bytes) {
     expect(static_cast<double>(bytes));
-    complete_ += bytes;
+    complete_ += static_cast<double>(bytes);
   }
 
  private:
   const DistanceVolumeOptions& options_;
-  std::atomic<std::size_t> complete_{0};
+  std::atomic<double> complete_{0};
 };
 
 void check_extent(const RangeSurface& surface, double voxel) {

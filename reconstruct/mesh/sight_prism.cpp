@@ -63,15 +63,22 @@ SightPrism::SightPrism(const RangeSurface& surface,
 }
 
 double SightPrism::bricks_at_most() const {
-  double count = 1.0 + static_cast<double>(last_slice_ - first_slice_) / kBrickSide;
+  double count = 2.0 + static_cast<double>(last_slice_ - first_slice_) / kBrickSide;
   for (int d = 0; d < 2; ++d) {
-    float low = INFINITY;
-    float high = -INFINITY;
-    for (const Corner& c : corners_) {
-      low = std::min(low, c.place[d]);
-      high = std::max(high, c.place[d]);
+    float width = 0;  // largest at the first or the last slice: corners drift along straight lines
+    float drift = 0;
+    for (const int slice : {first_slice_, last_slice_}) {
+      float low = INFINITY;
+      float high = -INFINITY;
+      for (const Corner& c : corners_) {
+        const float at = c.at(static_cast<float>(slice))[d];
+        low = std::min(low, at);
+        high = std::max(high, at);
+        drift = std::max(drift, std::abs(c.drift[d]));
+      }
+      width = std::max(width, high - low);
     }
-    count *= 1.0 + static_cast<double>(high - low) / kBrickSide;
+    count *= 2.0 + static_cast<double>(width / kBrickSide + drift);
   }
   return count;
 }

@@ -22,7 +22,7 @@ class SightPrism {
   /// False where the lines of sight of the three corners do not run side by side.
   bool usable() const { return usable_; }
 
-  /// Number of bricks of the bounding box [1].
+  /// No fewer than visit_bricks() names [1].
   double bricks_at_most() const;
 
   /// Calls visit for every brick the prism may meet.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/random.hpp>
 #include <facula/reconstruct/mesh/meshing.hpp>
+#include <facula/reconstruct/mesh/sight_prism.hpp>
 #include <facula/reconstruct/mesh/volumetric_merge.hpp>
 #include <facula/tests/reconstruct/simulated_grids.hpp>
 #include <facula/tests/reconstruct/surfaces.hpp>
@@ -191,6 +193,30 @@ TEST(VolumetricMerge, NamesVoxelAndMemoryWhereTheyDoNotFit) {
       std::string::npos);
   EXPECT_NE(error_of([&] { merge_volumetric(scans, {.voxel = -1}); }).find("voxel is -1"),
             std::string::npos);
+}
+
+TEST(SightPrism, NamesNoMoreBricksThanItSays) {
+  Random random(6);
+  const auto vector = [&random](double scale) {
+    return Eigen::Vector3f(
+        (scale * Eigen::Vector3d(random.normal(), random.normal(), random.normal())).cast<float>());
+  };
+  std::size_t usable = 0;
+  for (int i = 0; i < 300; ++i) {
+    RangeSurface surface;
+    const Eigen::Vector3f toward = vector(1).normalized();
+    for (int corner = 0; corner < 3; ++corner) {
+      surface.vertices.push_back({.point = vector(i % 3 == 0 ? 0.002 : 0.05),
+                                  .toward = (toward + vector(0.1)).normalized()});
+    }
+    const SightPrism prism(surface, {0, 1, 2}, 1e-3, 3);
+    if (!prism.usable()) continue;
+    ++usable;
+    std::size_t named = 0;
+    prism.visit_bricks([&named](const BrickPlace&) { ++named; });
+    EXPECT_LE(static_cast<double>(named), prism.bricks_at_most());
+  }
+  EXPECT_GT(usable, 200U);
 }
 
 TEST(VolumetricMerge, AgreesWithTheZipperedBunny) {
