@@ -11,6 +11,8 @@ packages=(
   # geometry, images, point clouds, meshes, maps, ray casting
   libeigen3-dev libopencv-dev libpcl-dev libcgal-dev liboctomap-dev libflann-dev libembree-dev
   libtbb-dev libceres-dev libhwy-dev libassimp-dev libompl-dev
+  # the mapper for many machines, facula-map-mpi
+  libopenmpi-dev openmpi-bin
   # files, command line, messages
   libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libboost-iostreams-dev
   zlib1g-dev liblzma-dev liblz4-dev

@@ -54,8 +54,8 @@ std::string right_side(const ArgumentSpec& spec) {
   return text;
 }
 
-std::string usage(const Command& command, const Arguments& arguments) {
-  std::string line = "facula " + command.name;
+std::string usage(const Arguments& arguments, const std::string& called) {
+  std::string line = called;
   for (const ArgumentSpec& spec : arguments.specs()) {
     if (!spec.positional() && !spec.required) continue;
     line += " " + (spec.required ? left_side(spec) : "[" + left_side(spec) + "]");
@@ -115,8 +115,14 @@ std::string first_word_help(const std::string& word, const std::vector<Command>&
 }
 
 std::string command_help(const Command& command, const Arguments& arguments) {
+  return program_help(command, arguments, "facula " + command.name);
+}
+
+std::string program_help(const Command& program,
+                         const Arguments& arguments,
+                         const std::string& called) {
   std::ostringstream out;
-  out << wrapped(command.description, 0) << "\n\nUsage: " << wrapped(usage(command, arguments), 4)
+  out << wrapped(program.description, 0) << "\n\nUsage: " << wrapped(usage(arguments, called), 4)
       << "\n\n";
   const auto& specs = arguments.specs();
   if (std::any_of(specs.begin(), specs.end(), [](const auto& s) { return s.positional(); })) {
@@ -127,7 +133,7 @@ std::string command_help(const Command& command, const Arguments& arguments) {
   out << "Options:\n";
   write_arguments(out, arguments, false);
   out << "\nExamples (data/... are files that come with facula, found from every folder):\n";
-  for (const std::string& example : command.examples) out << "  " << example << '\n';
+  for (const std::string& example : program.examples) out << "  " << example << '\n';
   return out.str();
 }
 

@@ -17,4 +17,9 @@ std::string first_word_help(const std::string& word, const std::vector<Command>&
 /// What `facula COMMAND --help` says: description, arguments with units and defaults, examples.
 std::string command_help(const Command& command, const Arguments& arguments);
 
+/// The same of a program of its own; `called` is what people type for it.
+std::string program_help(const Command& program,
+                         const Arguments& arguments,
+                         const std::string& called);
+
 }  // namespace facula

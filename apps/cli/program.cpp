@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <facula/acquire/core/atomic_file.hpp>
 #include <facula/acquire/core/nearest_name.hpp>
 #include <facula/acquire/core/version.hpp>
+#include <facula/apps/cli/complain.hpp>
+#include <facula/apps/cli/deliver.hpp>
 #include <facula/apps/cli/help.hpp>
 #include <facula/apps/cli/log.hpp>
 #include <facula/apps/cli/output_path.hpp>
@@ -12,15 +13,10 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
-#include <iostream>
-#include <new>
 
 namespace facula {
 namespace {
 
-constexpr int kOk = 0;
-constexpr int kFailed = 1;
-constexpr int kWrongUsage = 2;
 constexpr int kMostThreads = 1024;
 
 /// What every command understands besides its own arguments.
@@ -47,25 +43,6 @@ bool asks_for_help(const std::vector<std::string>& words) {
   });
 }
 
-void print(const std::string& text) {
-  std::cout << text << std::flush;
-  require(static_cast<bool>(std::cout),
-          "expected standard output to take the results, got a write error; is the disk full?");
-}
-
-void deliver(const Figures& figures, const std::filesystem::path& json) {
-  if (json == "-") {
-    print(figures.json());
-    return;
-  }
-  if (!json.empty()) {
-    AtomicFile file(json);
-    file.stream() << figures.json();
-    file.commit();
-  }
-  print(figures.text());
-}
-
 void run_command(const Command& command, const std::vector<std::string>& words) {
   Arguments arguments;
   CommonArguments common;
@@ -89,34 +66,12 @@ void run_command(const Command& command, const std::vector<std::string>& words) 
   deliver(session.figures, common.json);
 }
 
-int complain(const std::string& who, const std::string& sentence, int code) {
-  // One sentence on one line, whatever a library put into it.
-  std::string line = sentence;
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  while (line.ends_with(' ')) line.pop_back();
-  std::cerr << who << ": " << line << std::endl;
-  return code;
-}
-
 int guarded_run(const Command& command, const std::vector<std::string>& words) {
-  const std::string who = "facula " + command.name;
   try {
     run_command(command, words);
     return kOk;
-  } catch (const UsageError& error) {
-    return complain(who, error.what(), kWrongUsage);
-  } catch (const std::bad_alloc&) {
-    return complain(who,
-                    "expected enough memory, got none left; take fewer points (a larger voxel or "
-                    "cell, fewer scans) or a larger machine",
-                    kFailed);
-  } catch (const std::filesystem::filesystem_error& error) {
-    return complain(who,
-                    "expected a usable path, got '" + error.path1().string() +
-                        "': " + error.code().message() + "; check the path and its permissions",
-                    kFailed);
-  } catch (const std::exception& error) {
-    return complain(who, error.what(), kFailed);
+  } catch (...) {
+    return complain("facula " + command.name, std::current_exception());
   }
 }
 
@@ -199,8 +154,8 @@ int run_program(const std::vector<std::string>& words, const std::vector<Command
     if (words.size() > 1 && !asks_for_help({words[1]})) return unknown_second_word(words, commands);
     print(first_word_help(words[0], commands));
     return kOk;
-  } catch (const std::exception& error) {
-    return complain("facula", error.what(), kFailed);
+  } catch (...) {
+    return complain("facula", std::current_exception());
   }
 }
 

@@ -3,6 +3,7 @@
 #include <facula/acquire/core/scan_file.hpp>
 #include <facula/acquire/core/whole_file.hpp>
 #include <facula/apps/cli/file_kind.hpp>
+#include <facula/apps/commands/octomap_log.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
 #include <facula/reconstruct/filter/scan_filters.hpp>
 #include <facula/reconstruct/mesh/mesh_exchange.hpp>
@@ -15,11 +16,10 @@ namespace {
 
 /// A grid knows which points are neighbours, so mixed points can be told; a bare cloud is taken as
 /// it is.
-void clean_scan(const PolarScan& read, PosedCloud& posed, PosedScans& scans) {
-  PolarScan scan = read;
-  scans.mixed_removed += remove_mixed_points(scan);
-  posed.cloud = cloud_from_scan(scan);
-  posed.grid = grid_from_scan(scan);
+void remove_mixed(PolarScan scan, CleanScan& clean) {
+  clean.mixed_removed = remove_mixed_points(scan);
+  clean.posed.cloud = cloud_from_scan(scan);
+  clean.posed.grid = grid_from_scan(scan);
 }
 
 bool is_grid(const std::filesystem::path& file) {
@@ -27,42 +27,61 @@ bool is_grid(const std::filesystem::path& file) {
   return std::filesystem::exists(file, unknown) && file_kind(file) == FileKind::kScan;
 }
 
-/// A mesh stands for its vertices; .ply files are read as clouds, which keeps what they know.
-ScanProject scans_of(const std::filesystem::path& path, FileKind kind) {
-  if (kind != FileKind::kMesh || lower_extension(path) == ".ply") return read_scan_project(path);
-  ScanProject project;
-  project.scans.emplace_back();
-  project.scans.front().name = path.filename().string();
-  project.scans.front().cloud.points = read_any_mesh(path).vertices;
-  return project;
+/// A mesh stands for its vertices.
+PosedCloud read_vertices(const std::filesystem::path& path) {
+  PosedCloud scan;
+  scan.name = path.filename().string();
+  scan.cloud.points = read_any_mesh(path).vertices;
+  return scan;
+}
+
+/// Meshes in .ply files are listed as clouds, which keeps what they know.
+std::vector<ListedScan> scans_of(const std::filesystem::path& path) {
+  const FileKind kind = file_kind(path);
+  require(kind == FileKind::kProject || kind == FileKind::kScan || kind == FileKind::kCloud ||
+              kind == FileKind::kMesh,
+          "expected a scan, a cloud or a project of scans, got a ",
+          to_string(kind),
+          " in '",
+          path.string(),
+          "'; 'facula extract' makes scans of captures");
+  if (is_octomap_log(path)) return list_log(path);
+  if (kind != FileKind::kMesh || lower_extension(path) == ".ply") return list_scans(path);
+  return {{.name = path.filename().string(), .file = path, .read = [path] {
+             return read_vertices(path);
+           }}};
 }
 
 }  // namespace
 
+std::vector<ListedScan> list_posed_scans(const std::vector<std::filesystem::path>& paths) {
+  std::vector<ListedScan> scans;
+  for (const auto& path : paths) {
+    for (ListedScan& scan : scans_of(path)) scans.push_back(std::move(scan));
+  }
+  return scans;
+}
+
+CleanScan read_clean_scan(const ListedScan& listed, bool filter) {
+  CleanScan clean{.posed = listed.read()};
+  clean.points_read = clean.posed.cloud.size();
+  if (!is_grid(clean.posed.file)) return clean;
+  PolarScan scan = read_scan(clean.posed.file);
+  clean.stripes = stripes_of(scan);
+  if (filter) remove_mixed(std::move(scan), clean);
+  return clean;
+}
+
 PosedScans read_posed_scans(const std::vector<std::filesystem::path>& paths, bool filter) {
   PosedScans scans;
   bool all_grids = true;
-  for (const auto& path : paths) {
-    const FileKind kind = file_kind(path);
-    require(kind == FileKind::kProject || kind == FileKind::kScan || kind == FileKind::kCloud ||
-                kind == FileKind::kMesh,
-            "expected a scan, a cloud or a project of scans, got a ",
-            to_string(kind),
-            " in '",
-            path.string(),
-            "'; 'facula extract' makes scans of captures");
-    ScanProject project = scans_of(path, kind);
-    for (PosedCloud& posed : project.scans) {
-      scans.points_read += posed.cloud.size();
-      if (is_grid(posed.file)) {
-        const PolarScan scan = read_scan(posed.file);
-        scans.stripes += stripes_of(scan);
-        if (filter) clean_scan(scan, posed, scans);
-      } else {
-        all_grids = false;
-      }
-      scans.project.scans.push_back(std::move(posed));
-    }
+  for (const ListedScan& listed : list_posed_scans(paths)) {
+    CleanScan clean = read_clean_scan(listed, filter);
+    scans.points_read += clean.points_read;
+    scans.mixed_removed += clean.mixed_removed;
+    scans.stripes += clean.stripes.value_or(0);
+    all_grids = all_grids && clean.stripes.has_value();
+    scans.project.scans.push_back(std::move(clean.posed));
   }
   if (!all_grids) scans.stripes = 0;
   require(scans.points_read > scans.mixed_removed,
