@@ -39,7 +39,7 @@ struct HeightMap {
 /// there are none.
 HeightMap height_map(const OccupancyMap& map, const HeightMapOptions& options = {});
 
-/// Writes STEM.tif, 32-bit float metres with NaN for no height, and STEM.yaml beside it, which says
+/// Writes NAME.tif, 32-bit float metres with NaN for no height, and NAME.tif.yaml, which says
 /// where the picture lies: image, resolution, origin (lower left corner), unit. Throws Error when
 /// either cannot be written.
 void write_height_map(const std::filesystem::path& tiff_path, const HeightMap& heights);

@@ -78,7 +78,7 @@ void write_height_map(const std::filesystem::path& tiff_path, const HeightMap& h
           " heights, got ",
           heights.top.size());
   AtomicFile tiff(tiff_path);
-  AtomicFile yaml(std::filesystem::path(tiff_path).replace_extension(".yaml"));
+  AtomicFile yaml(std::filesystem::path(tiff_path) += ".yaml");
   write_tiff(tiff.stream(), heights);
   yaml.stream() << "image: " << yaml_scalar(tiff_path.filename().string())
                 << "\nresolution: " << exact_text(heights.resolution) << "\norigin: ["

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/apps/cli/file_kind.hpp>
 #include <facula/apps/cli/output_path.hpp>
 #include <facula/apps/cli/usage_error.hpp>
 #include <facula/apps/commands/map.hpp>
 #include <facula/apps/commands/map_figures.hpp>
+#include <facula/apps/commands/map_outputs.hpp>
+#include <facula/apps/commands/occupancy_arguments.hpp>
 #include <facula/apps/commands/place_scans.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
-#include <facula/map/navigation_grid.hpp>
 #include <facula/map/occupancy_map.hpp>
 #include <facula/map/octomap_judge.hpp>
 
@@ -20,45 +22,26 @@ namespace {
 struct MapArguments {
   std::vector<std::filesystem::path> scans;
   std::vector<std::filesystem::path> out;
-  std::filesystem::path grid;
   std::string place = "auto";
   bool verify = false;
   OccupancyOptions options;
-  NavigationGridOptions grid_options;
+  MapOutputs outputs;
 };
 
 void declare(Arguments& arguments, MapArguments& a) {
-  arguments.inputs("SCANS", a.scans, "a scan, several, or a project (poses.toml, .conf, folder)");
+  arguments.inputs("SCANS",
+                   a.scans,
+                   "a scan, several, a project (poses.toml, .conf, folder), or a finished map");
   arguments.required();
   arguments.outputs("--out", a.out, "the map: .bt (free or occupied) or .ot (probabilities)");
-  arguments.required();
-  arguments.number("--resolution-mm", a.options.resolution, kMillimetres, "edge of a cell");
-  arguments.number("--max-range-m",
-                   a.options.max_range,
-                   kMetres,
-                   "longer rays only clear space up to here, 0 = no limit");
-  arguments.number("--hit", a.options.hit, kPlainNumber, "probability of a cell a ray ends in");
-  arguments.number("--miss", a.options.miss, kPlainNumber, "of a cell that a ray passes");
-  arguments.number("--clamp-min", a.options.clamp_min, kPlainNumber, "least a cell can reach");
-  arguments.number("--clamp-max", a.options.clamp_max, kPlainNumber, "most a cell can reach");
-  arguments.flag("--discretize",
-                 a.options.discretize,
-                 "one ray per cell that points lie in, to its middle: faster, coarser");
-  arguments.flag("--weigh-sigma",
-                 a.options.weigh_sigma,
-                 "points whose sigma is large against a cell hit it less; not as OctoMap does");
+  declare_occupancy(arguments, a.options);
   arguments.choice("--register",
                    a.place,
                    {"auto", "always", "never"},
                    "find the poses of the scans; auto: of scans that have none");
   arguments.flag(
       "--verify", a.verify, "build the map once more with liboctomap and compare every byte");
-  arguments.output("--grid", a.grid, "also write a navigation grid (.yaml, with a .pgm beside it)");
-  arguments.number("--min-height-m",
-                   a.grid_options.min_height,
-                   kMetres,
-                   "lowest part of space that blocks the robot");
-  arguments.number("--max-height-m", a.grid_options.max_height, kMetres, "highest such part");
+  declare_map_outputs(arguments, a.outputs);
 }
 
 PosedScans read_scans(const MapArguments& a, Session& session) {
@@ -105,23 +88,35 @@ OccupancyMap build_map(const MapArguments& a, Session& session) {
   return map;
 }
 
-void run(const MapArguments& a, Session& session) {
+/// A map that is finished already, when it is what the command was given.
+std::optional<OccupancyMap> finished_map(const MapArguments& a) {
+  if (a.scans.size() != 1 || file_kind(a.scans[0]) != FileKind::kMap) return std::nullopt;
+  if (a.verify) fail_usage("--verify needs the scans; '", a.scans[0].string(), "' is a map");
+  return OccupancyMap::read(a.scans[0]);
+}
+
+void check(const MapArguments& a) {
   for (const auto& path : a.out) check_output(path, {".bt", ".ot"});
+  check_map_outputs(a.outputs);
+  if (a.out.empty() && !a.outputs.any()) {
+    fail_usage("expected something to write: --out, --grid, --height-map or --frontiers");
+  }
   if (a.verify && a.options.weigh_sigma) {
     fail_usage("--verify and --weigh-sigma exclude each other: OctoMap does not weigh hits");
   }
-  if (!a.grid.empty()) check_output(a.grid, {".yaml"});
   a.options.check();
-  a.grid_options.check();
-  const OccupancyMap map = build_map(a, session);
-  std::optional<NavigationGrid> grid;
-  if (!a.grid.empty()) grid = navigation_grid(map, a.grid_options);
-  for (const auto& path : a.out) map.write(path);
-  session.figures.count("skipped_points", "points skipped", map.skipped_points());
-  report_map(map, session.figures);
-  if (!grid) return;
-  write_navigation_grid(a.grid, *grid);
-  report_grid(*grid, session.figures.part("grid", "Navigation grid:"));
+}
+
+void run(const MapArguments& a, Session& session) {
+  check(a);
+  std::optional<OccupancyMap> map = finished_map(a);
+  if (!map) {
+    map = build_map(a, session);
+    session.figures.count("skipped_points", "points skipped", map->skipped_points());
+  }
+  for (const auto& path : a.out) map->write(path);
+  report_map(*map, session.figures);
+  write_map_outputs(*map, a.outputs, session);
 }
 
 }  // namespace
@@ -130,18 +125,23 @@ Command map_command() {
   const auto a = std::make_shared<MapArguments>();
   return {
       .name = "map",
-      .summary = "make an occupancy map and a navigation grid",
+      .summary = "make an occupancy map, grids, and plans of where to scan next",
       .description =
           "Casts a ray from the scanner to every point and marks the cells of space as free, "
-          "occupied or unknown (OctoMap). The grid is the map seen from above, as ROS map "
-          "servers read it.",
+          "occupied or unknown (OctoMap). A grid is the map seen from above, as ROS map servers "
+          "read it; a height map is its highest surface; frontiers are where the known free space "
+          "ends, with the places from which a scan would see most behind them. They can also be "
+          "made of a finished map.",
       .examples =
           {"facula simulate data/scenes/furnished_room.toml --rig "
            "data/rigs/head_fs1500.toml --step-deg 12 "
            "--position-mm -1500 -300 1100 --out room",
            "facula extract room --out room.pcd",
            "facula map room.pcd --resolution-mm 100 --verify --out room.bt --out room.ot --grid "
-           "room.yaml --min-height-m 0.1 --max-height-m 1.5"},
+           "room.yaml --min-height-m 0.1 --max-height-m 1.5",
+           "facula map room.bt --above-floor --grid raw.yaml --grid-mode raw --inflate-m 0.2 "
+           "--height-map heights.tif --frontiers next.csv --frontiers next.png --scanner-range-m 5 "
+           "--scanner-height-m 1.1"},
       .declare = [a](Arguments& arguments) { declare(arguments, *a); },
       .run = [a](Session& session) { run(*a, session); }};
 }

@@ -19,16 +19,14 @@ namespace {
 /// Every file that will be written, those beside the named ones too.
 std::vector<std::filesystem::path> files_of(const MapOutputs& o) {
   std::vector<std::filesystem::path> files;
-  const auto add = [&](std::filesystem::path path, const char* extension) {
-    files.push_back(path.replace_extension(extension));
-  };
   if (!o.grid.empty()) {
     files.push_back(o.grid);
-    add(o.grid, grid_mode(o.grid_mode) == GridMode::kScale ? ".png" : ".pgm");
+    const bool scale = grid_mode(o.grid_mode) == GridMode::kScale;
+    files.push_back(std::filesystem::path(o.grid).replace_extension(scale ? ".png" : ".pgm"));
   }
   for (const auto& path : o.height_maps) {
     files.push_back(path);
-    if (path.extension() != ".png") add(path, ".yaml");
+    if (path.extension() != ".png") files.push_back(std::filesystem::path(path) += ".yaml");
   }
   files.insert(files.end(), o.frontiers.begin(), o.frontiers.end());
   std::sort(files.begin(), files.end());
@@ -115,8 +113,8 @@ void declare_map_outputs(Arguments& arguments, MapOutputs& o) {
                    "radius of the robot: cells this near an occupied one are occupied too");
   arguments.outputs("--height-map",
                     o.height_maps,
-                    "also write the highest surface per column: .tif (32-bit float, with a .yaml "
-                    "beside it) or .png (a picture)");
+                    "also write the highest surface per column: .tif (32-bit float, with a "
+                    ".tif.yaml beside it) or .png (a picture)");
   arguments.outputs("--frontiers",
                     o.frontiers,
                     "also write where to scan next: .csv (a list) or .png (a picture)");

@@ -74,7 +74,7 @@ TEST(HeightMapFile, IsATiffOfFloatsThatOthersRead) {
       EXPECT_TRUE(found == expected || (std::isnan(found) && std::isnan(expected)));
     }
   }
-  EXPECT_EQ(read_whole_file(folder / "height map.yaml"),
+  EXPECT_EQ(read_whole_file(folder / "height map.tif.yaml"),
             "image: \"height map.tif\"\nresolution: 0.1\norigin: [0, 0, 0]\nunit: m\n"
             "no_height: nan\n");
 }
