@@ -51,9 +51,8 @@ double Clearance::exact(const Eigen::Vector3d& x, double most) const {
   return nearest ? nearest->distance : most;
 }
 
-Clearance::Bounds Clearance::bounds(const Eigen::Vector3d& x) const {
-  const auto cell = cell_of(x, query_.resolution());
-  const double distance = cell ? field_.at(*cell) : std::numeric_limits<double>::quiet_NaN();
+Clearance::Bounds Clearance::bounds(const CellKey& cell) const {
+  const double distance = field_.at(cell);
   if (std::isnan(distance)) return {};
   // From x to its cell's centre, and from an obstacle's centre to its corners, it is at most half a
   // diagonal; an obstacle's surface is nearer than its centre by half an edge or more.
@@ -65,11 +64,22 @@ Clearance::Bounds Clearance::bounds(const Eigen::Vector3d& x) const {
 }
 
 double Clearance::at_least(const Eigen::Vector3d& x) const {
-  return bounds(x).low;
+  const auto cell = cell_of(x, query_.resolution());
+  return cell ? bounds(*cell).low : 0;
+}
+
+bool Clearance::may_hold(const CellKey& cell, double radius) const {
+  return bounds(cell).high >= radius;
+}
+
+bool Clearance::holds_at_centre(const CellKey& cell, double radius) const {
+  const double half_diagonal = query_.resolution() / 2 * std::numbers::sqrt3;
+  return std::min(field_.at(cell), slab_) - half_diagonal >= radius;
 }
 
 bool Clearance::holds(const Eigen::Vector3d& x, double radius) const {
-  const Bounds known = bounds(x);
+  const auto cell = cell_of(x, query_.resolution());
+  const Bounds known = cell ? bounds(*cell) : Bounds();
   if (known.low >= radius) return true;
   if (known.high < radius) return false;
   const auto nearest = query_.nearest_obstacle(x, radius, unknown_);

@@ -34,6 +34,12 @@ class Clearance {
   /// A number that the clearance is not below, found without a search; may be below 0.
   double at_least(const Eigen::Vector3d& x) const;
 
+  /// False where no place in the cell has a clearance of `radius` [m]; a glance at the field.
+  bool may_hold(const CellKey& cell, double radius) const;
+
+  /// True only where a cell's centre has a clearance of `radius` [m]; a glance as well.
+  bool holds_at_centre(const CellKey& cell, double radius) const;
+
   /// Whether the clearance is `radius` [m] or more.
   bool holds(const Eigen::Vector3d& x, double radius) const;
 
@@ -49,7 +55,8 @@ class Clearance {
     double low = 0;
     double high = std::numeric_limits<double>::infinity();
   };
-  Bounds bounds(const Eigen::Vector3d& x) const;
+  /// Of all places in a cell.
+  Bounds bounds(const CellKey& cell) const;
 
   UnknownCells unknown_;
   MapQuery query_;

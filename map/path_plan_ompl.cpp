@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/random.hpp>
 #include <facula/map/clearance.hpp>
 #include <facula/map/path_plan.hpp>
+#include <facula/map/reachable_cells.hpp>
+#include <facula/map/short_ways.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <ompl/base/MotionValidator.h>
@@ -46,6 +51,9 @@ class Silence {
 /// A plan's question: where a ball of `radius` may be.
 struct Task {
   const Clearance* clearance = nullptr;
+  const ReachableCells* reachable = nullptr;
+  const std::vector<CellKey>* on_short_ways =
+      nullptr;                   // where tries are made; empty: wherever it can
   double radius = 0;             // what is kept [m]
   std::optional<double> height;  // of all places, where it is fixed [m]
   Eigen::AlignedBox3d known;     // [m]
@@ -82,7 +90,36 @@ class BallMotion : public ob::MotionValidator {
   Task task_;
 };
 
-ob::SpaceInformationPtr space_of(const Task& task) {
+/// Draws places in the cells that the ball can reach: elsewhere they would be in vain. Most of
+/// space would be so too where short ways are known.
+class ReachableSampler : public ob::RealVectorStateSampler {
+ public:
+  ReachableSampler(const ob::StateSpace* space, const Task& task, std::uint32_t seed)
+      : ob::RealVectorStateSampler(space), task_(task), random_(seed) {}
+
+  void sampleUniform(ob::State* state) override {
+    const CellKey cell = drawn_cell();
+    const double edge = task_.clearance->query().resolution();
+    const Eigen::Vector3d centre = centre_of(cell, edge);
+    auto* values = state->as<ob::RealVectorStateSpace::StateType>()->values;
+    for (unsigned int i = 0; i < space_->getDimension(); ++i) {
+      values[i] = centre[i] + (random_.uniform() - 0.5) * edge;
+    }
+    space_->enforceBounds(state);
+  }
+
+ private:
+  CellKey drawn_cell() {
+    const std::vector<CellKey>& near = *task_.on_short_ways;
+    if (!near.empty()) return near[random_.below(near.size())];
+    return (*task_.reachable)[random_.below(task_.reachable->size())];
+  }
+
+  Task task_;
+  Random random_;
+};
+
+ob::SpaceInformationPtr space_of(const Task& task, std::uint32_t seed) {
   const unsigned int dimensions = task.height ? 2 : 3;
   auto space = std::make_shared<ob::RealVectorStateSpace>(dimensions);
   ob::RealVectorBounds bounds(dimensions);
@@ -91,6 +128,9 @@ ob::SpaceInformationPtr space_of(const Task& task) {
     bounds.setHigh(i, task.known.max()[i]);
   }
   space->setBounds(bounds);
+  space->setStateSamplerAllocator([task, seed](const ob::StateSpace* sampled) {
+    return std::make_shared<ReachableSampler>(sampled, task, seed);
+  });
   auto information = std::make_shared<ob::SpaceInformation>(space);
   information->setStateValidityChecker([task](const ob::State* state) {
     return task.clearance->holds(task.place(state), task.asked_radius());
@@ -205,7 +245,7 @@ PathPlan plan_of(og::PathGeometric& path, const Task& task, double max_clearance
   return plan;
 }
 
-/// RRT-Connect from both ends, then shortening.
+/// RRT-Connect from both ends and shortening, again and again while tries are left.
 PathPlan search(const Task& task,
                 const Eigen::Vector3d& from,
                 const Eigen::Vector3d& to,
@@ -215,25 +255,46 @@ PathPlan search(const Task& task,
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const Silence silence;
   ompl::RNG::setSeed(options.seed);
-  const ob::SpaceInformationPtr space = space_of(task);
+  const ob::SpaceInformationPtr space = space_of(task, options.seed);
   const auto problem = problem_of(space, from, to);
   og::RRTConnect planner(space);
   planner.setRange(kTreeStep);
   planner.setProblemDefinition(problem);
   std::size_t tries = 0;
-  planner.solve(ob::PlannerTerminationCondition([&] { return ++tries > options.max_tries; }));
-  require(problem->hasExactSolution(),
-          "expected a path that keeps ",
-          task.radius,
-          " m from obstacles, found none in ",
-          options.max_tries,
-          " random tries; there may be none: try a smaller radius, unknown cells as free, or more "
-          "tries");
-  auto& path = *problem->getSolutionPath()->as<og::PathGeometric>();
-  shorten(path, space);
-  PathPlan plan = plan_of(path, task, options.max_clearance);
+  std::size_t limit = options.max_tries;
+  std::size_t paths = 0;
+  std::shared_ptr<og::PathGeometric> best;
+  do {
+    planner.clear();
+    problem->clearSolutionPaths();
+    planner.solve(ob::PlannerTerminationCondition([&] { return ++tries > limit; }));
+    if (!problem->hasExactSolution()) break;
+    auto path =
+        std::make_shared<og::PathGeometric>(*problem->getSolutionPath()->as<og::PathGeometric>());
+    shorten(*path, space);
+    if (!best || path->length() < best->length()) best = path;
+    ++paths;
+    limit = options.more_tries;
+  } while (tries < limit);
+  require(
+      best != nullptr,
+      "expected a path that keeps ",
+      task.radius,
+      " m from obstacles, found none in ",
+      options.max_tries,
+      " random tries though the cells between start and goal hang together; passages may be too "
+      "narrow: try a smaller radius, or more tries");
+  PathPlan plan = plan_of(*best, task, options.max_clearance);
   plan.tries = tries;
+  plan.paths = paths;
   return plan;
+}
+
+/// The cells that the ball may be in: those of the known box, or of one height.
+CellBox roaming_box(const CellBox& known, const CellKey& start, bool flat) {
+  CellBox box = known;
+  if (flat) box.low[2] = box.high[2] = start[2];
+  return box;
 }
 
 }  // namespace
@@ -274,12 +335,27 @@ PathPlan plan_path(const OccupancyMap& map,
                              .max_memory = options.max_memory,
                              .num_threads = options.num_threads});
   const CellBox known = clearance.query().known().value();
-  const Task task{.clearance = &clearance,
-                  .radius = options.radius,
-                  .height = height,
-                  .known = metres_of(known, map.resolution())};
+  Task task{.clearance = &clearance,
+            .radius = options.radius,
+            .height = height,
+            .known = metres_of(known, map.resolution())};
   require_place("start", from, task);
   require_place("goal", to, task);
+  const std::array<CellKey, 2> ends = {cell_of(from, map.resolution()).value(),
+                                       cell_of(to, map.resolution()).value()};
+  const CellBox box = roaming_box(known, ends[0], options.flat);
+  const double radius = task.asked_radius();
+  const ReachableCells reachable(clearance, box, ends[0], radius, options.num_threads);
+  require(reachable.contains(ends[1]),
+          "expected a way from start to goal for a ball of ",
+          options.radius,
+          " m, but there is none",
+          options.unknown == UnknownCells::kOccupied ? " through cells known to be free" : "",
+          "; give another goal, a smaller radius, or let unknown cells count as free");
+  const std::vector<CellKey> on_short_ways = cells_of_short_ways(
+      clearance, box, ends, {.radius = radius, .num_threads = options.num_threads});
+  task.reachable = &reachable;
+  task.on_short_ways = &on_short_ways;
   return search(task, from, to, options);
 }
 
