@@ -55,6 +55,7 @@ std::vector<Cluster> clusters_of(const std::vector<PointPair>& pairs,
     cluster.stiffness += stiffness;
   }
   std::vector<Cluster> clusters;
+  clusters.reserve(cells.size());
   for (const auto& [cell, cluster] : cells) clusters.push_back(cluster);
   return clusters;
 }
