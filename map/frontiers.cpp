@@ -20,10 +20,15 @@ void require_positive(const char* field, double value) {
           value);
 }
 
+using Directions = std::vector<Eigen::Vector3d>;
+
+/// How many times fewer rays search than count.
+constexpr std::size_t kSearchShare = 8;
+
 /// Directions spread evenly over the sphere (Fibonacci lattice, Gonzalez 2010).
-std::vector<Eigen::Vector3d> sphere(std::size_t count) {
+Directions sphere(std::size_t count) {
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
-  std::vector<Eigen::Vector3d> directions;
+  Directions directions;
   directions.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto k = static_cast<double>(i);
@@ -51,17 +56,17 @@ struct SeenCell {
 struct Scene {
   const CoarseMap& map;
   const FrontierRegions& frontiers;
-  std::vector<Eigen::Vector3d> directions;
+  Directions directions;  // a ray for every cell
+  Directions few;         // enough to tell better places from worse ones
   double range = 0;
   std::vector<bool> crossed_off;
 
-  /// The distinct unknown cells seen from a place that are not crossed off.
-  std::vector<SeenCell> seen_from(const Eigen::Vector3d& position) const {
-    return seen_from(position, crossed_off);
-  }
-  std::vector<SeenCell> seen_from(const Eigen::Vector3d& position, std::vector<bool> met) const {
+  /// The distinct unknown cells that rays from a place meet, but for those met already.
+  std::vector<SeenCell> seen(const Eigen::Vector3d& position,
+                             const Directions& along,
+                             std::vector<bool> met) const {
     std::vector<SeenCell> seen;
-    for (const Eigen::Vector3d& direction : directions) {
+    for (const Eigen::Vector3d& direction : along) {
       int region = FrontierRegions::kNone;
       walk_coarse(map, position, direction, range, [&](std::size_t cell) {
         const CellState state = map.cells[cell];
@@ -76,6 +81,18 @@ struct Scene {
       });
     }
     return seen;
+  }
+
+  std::vector<SeenCell> seen_from(const Eigen::Vector3d& position) const {
+    return seen(position, directions, crossed_off);
+  }
+  double volume_from(const Eigen::Vector3d& position, const Directions& along) const {
+    return volume(seen(position, along, crossed_off).size());
+  }
+
+  /// What is seen from a place counts no more.
+  void cross_off(const Eigen::Vector3d& position) {
+    for (const SeenCell& cell : seen_from(position)) crossed_off[cell.cell] = true;
   }
 
   double volume(std::size_t cells) const {
@@ -94,8 +111,8 @@ ScanSuggestion describe(const Scene& scene,
   ScanSuggestion suggestion;
   suggestion.position = position;
   suggestion.volume = scene.volume(seen.size());
-  suggestion.volume_alone =
-      scene.volume(scene.seen_from(position, std::vector<bool>(scene.crossed_off.size())).size());
+  const std::vector<bool> nothing(scene.crossed_off.size(), false);
+  suggestion.volume_alone = scene.volume(scene.seen(position, scene.directions, nothing).size());
   const auto most = std::max_element(through.begin(), through.end());
   if (most == through.end() || *most == 0) return suggestion;
   suggestion.region = scene.frontiers.regions[static_cast<std::size_t>(most - through.begin())];
@@ -103,57 +120,77 @@ ScanSuggestion describe(const Scene& scene,
   return suggestion;
 }
 
-/// Unknown cells seen from every place.
-std::vector<std::size_t> gains_of(const Scene& scene,
-                                  const StandArea& area,
-                                  const std::vector<std::size_t>& places,
-                                  int num_threads) {
-  std::vector<std::size_t> gains(places.size(), 0);
+/// Unknown volume seen from every place [m^3].
+std::vector<double> volumes_from(const Scene& scene,
+                                 const StandArea& area,
+                                 const std::vector<std::size_t>& places,
+                                 const Directions& along,
+                                 int num_threads) {
+  std::vector<double> volumes(places.size(), 0);
   parallel_for(places.size(),
                [&](std::size_t begin, std::size_t end) {
                  for (std::size_t i = begin; i < end; ++i) {
-                   gains[i] = scene.seen_from(area.position(places[i])).size();
+                   volumes[i] = scene.volume_from(area.position(places[i]), along);
                  }
                },
                {.num_threads = num_threads, .chunk = 1});
-  return gains;
+  return volumes;
 }
 
 /// Climbs from a place of the lattice to a better one between, in steps that get shorter.
 std::size_t climb(const Scene& scene, const StandArea& area, std::size_t place, int num_threads) {
-  std::size_t gain = scene.seen_from(area.position(place)).size();
+  double volume = scene.volume_from(area.position(place), scene.few);
   for (int step = area.stride / 2; step >= 1 && step * area.resolution > scene.map.edge / 4;) {
     const std::vector<std::size_t> places = area.around(place, step);
-    const std::vector<std::size_t> gains = gains_of(scene, area, places, num_threads);
-    const auto best = std::max_element(gains.begin(), gains.end());
-    if (best == gains.end() || *best <= gain) {
+    const std::vector<double> volumes = volumes_from(scene, area, places, scene.few, num_threads);
+    const auto best = std::max_element(volumes.begin(), volumes.end());
+    if (best == volumes.end() || *best <= volume) {
       step /= 2;
       continue;
     }
-    gain = *best;
-    place = places[static_cast<std::size_t>(best - gains.begin())];
+    volume = *best;
+    place = places[static_cast<std::size_t>(best - volumes.begin())];
   }
   return place;
 }
 
-/// Takes the best place, crosses off what it sees, and so on. Gains only shrink, so that a place
-/// whose gain was just counted anew and still is the largest is the best one.
-std::vector<ScanSuggestion> choose(Scene& scene,
-                                   const StandArea& area,
-                                   const FrontierOptions& options) {
-  std::vector<std::size_t> gains = gains_of(scene, area, area.lattice, options.num_threads);
-  std::vector<ScanSuggestion> suggestions;
-  while (suggestions.size() < options.count) {
-    const auto best = std::max_element(gains.begin(), gains.end());
-    if (*best == 0 || scene.volume(*best) < options.min_volume) break;
-    std::size_t place = area.lattice[static_cast<std::size_t>(best - gains.begin())];
-    const std::size_t gain = scene.seen_from(area.position(place)).size();
-    const bool still_best = gain == std::exchange(*best, gain);
+/// Takes the best place, crosses off what it sees, and so on. Volumes only shrink, so that a place
+/// whose volume was just taken anew and still is the largest is the best one.
+std::vector<std::size_t> choose(Scene scene,
+                                const StandArea& area,
+                                const FrontierOptions& options) {
+  std::vector<double> volumes =
+      volumes_from(scene, area, area.lattice, scene.few, options.num_threads);
+  std::vector<std::size_t> places;
+  while (places.size() < options.count) {
+    const auto best = std::max_element(volumes.begin(), volumes.end());
+    if (*best <= 0) break;
+    const std::size_t place = area.lattice[static_cast<std::size_t>(best - volumes.begin())];
+    const double volume = scene.volume_from(area.position(place), scene.few);
+    const bool still_best = volume == std::exchange(*best, volume);
     if (!still_best) continue;
-    place = climb(scene, area, place, options.num_threads);
-    const std::vector<SeenCell> seen = scene.seen_from(area.position(place));
-    suggestions.push_back(describe(scene, area.position(place), seen));
-    for (const SeenCell& cell : seen) scene.crossed_off[cell.cell] = true;
+    places.push_back(climb(scene, area, place, options.num_threads));
+    scene.cross_off(area.position(places.back()));
+  }
+  return places;
+}
+
+/// The chosen places in the order in which each shows most that the ones before do not: the climb
+/// may have made a later one better.
+std::vector<ScanSuggestion> ranked(Scene& scene,
+                                   const StandArea& area,
+                                   std::vector<std::size_t> places,
+                                   const FrontierOptions& options) {
+  std::vector<ScanSuggestion> suggestions;
+  while (!places.empty()) {
+    const std::vector<double> volumes =
+        volumes_from(scene, area, places, scene.directions, options.num_threads);
+    const auto best = std::max_element(volumes.begin(), volumes.end()) - volumes.begin();
+    if (volumes[static_cast<std::size_t>(best)] < options.min_volume) break;
+    const Eigen::Vector3d position = area.position(places[static_cast<std::size_t>(best)]);
+    suggestions.push_back(describe(scene, position, scene.seen_from(position)));
+    scene.cross_off(position);
+    places.erase(places.begin() + best);
   }
   return suggestions;
 }
@@ -185,6 +222,7 @@ Frontiers find_frontiers(const OccupancyMap& map,
   Scene scene{.map = coarse,
               .frontiers = regions,
               .directions = sphere(ray_count(options, coarse.edge)),
+              .few = sphere(ray_count(options, coarse.edge) / kSearchShare),
               .range = options.range,
               .crossed_off = std::vector<bool>(coarse.cells.size(), false)};
   Frontiers result{.cell = coarse.edge,
@@ -193,7 +231,7 @@ Frontiers find_frontiers(const OccupancyMap& map,
                    .standpoints = area.lattice.size(),
                    .rays = scene.directions.size(),
                    .suggestions = {}};
-  result.suggestions = choose(scene, area, options);
+  result.suggestions = ranked(scene, area, choose(scene, area, options), options);
   return result;
 }
 

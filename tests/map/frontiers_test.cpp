@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -251,8 +252,10 @@ TEST(Frontiers, CrossOffWhatEarlierSuggestionsSee) {
   options.min_volume = 0.01;
   const Frontiers found = find_frontiers(map, floor_of(map), options);
   double sum = 0;
+  double last = found.suggestions.at(0).volume;
   for (const ScanSuggestion& suggestion : found.suggestions) {
     sum += suggestion.volume;
+    EXPECT_LE(suggestion.volume, std::exchange(last, suggestion.volume));
     EXPECT_LE(suggestion.volume, suggestion.volume_alone);
   }
   EXPECT_LE(sum, 0.3 + 0.6 + 1e-9);

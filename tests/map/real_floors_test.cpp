@@ -7,7 +7,10 @@
 #include <facula/tests/support/temporary_folder.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -113,6 +116,20 @@ TEST_P(RealFloors, HaveFrontiersThatATripodCouldStandNear) {
     EXPECT_LE(suggestion.region_volume, suggestion.volume);
     EXPECT_LE((suggestion.region.centre - suggestion.position).norm(), options.range + 2);
   }
+}
+
+/// The maps were made of other drives at another resolution; what they leave unseen is the same.
+TEST(RealFrontiers, AreTheSameRoomsInBothMapsOfABuilding) {
+  FACULA_REQUIRE_REAL_DATA(folder, "range/octomap-maps");
+  std::array<std::vector<ScanSuggestion>, 2> found;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const OccupancyMap map = OccupancyMap::read(folder / (i == 0 ? kCorridor : kOffices).file);
+    found[i] = find_frontiers(map, find_floor(map), {.count = 1}).suggestions;
+    ASSERT_EQ(found[i].size(), 1U);
+  }
+  const Eigen::Vector3d apart = found[0][0].position - found[1][0].position;
+  EXPECT_LT(apart.norm(), 1.0);
+  EXPECT_NEAR(found[0][0].volume, found[1][0].volume, 0.2 * found[0][0].volume);
 }
 
 INSTANTIATE_TEST_SUITE_P(Building079,
