@@ -57,4 +57,12 @@ inline std::size_t cell_in_brick(const CellKey& cell) {
   return static_cast<std::size_t>((cell[0] & 7) | (cell[1] & 7) << 3 | (cell[2] & 7) << 6);
 }
 
+/// The cell at that place of the brick whose lowest cell is `first`: the way back.
+inline CellKey cell_at(const CellKey& first, std::size_t place) {
+  const auto part = [&](std::size_t axis) {
+    return first[axis] + static_cast<int>(place >> (3 * axis) & 7);
+  };
+  return {part(0), part(1), part(2)};
+}
+
 }  // namespace facula

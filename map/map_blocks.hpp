@@ -12,11 +12,13 @@ namespace facula {
 
 /// What a block of a .fmap file is about, as four letters.
 enum class MapBlockKind : std::uint32_t {
-  kOptions = 0x5354504f,  ///< "OPTS"
-  kBricks = 0x4b435242,   ///< "BRCK"
-  kScan = 0x4e414353,     ///< "SCAN"
-  kCells = 0x4c4c4543,    ///< "CELL"
-  kEnd = 0x20444e45       ///< "END "
+  kOptions = 0x5354504f,     ///< "OPTS"
+  kBricks = 0x4b435242,      ///< "BRCK"
+  kScan = 0x4e414353,        ///< "SCAN"
+  kCells = 0x4c4c4543,       ///< "CELL"
+  kColors = 0x524c4f43,      ///< "COLR"
+  kScanColors = 0x4c4f4353,  ///< "SCOL"
+  kEnd = 0x20444e45          ///< "END "
 };
 
 /// A block as it lies in the file.

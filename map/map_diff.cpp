@@ -41,11 +41,6 @@ OccupancyMap seen_in(const OccupancyMap& before,
   return here;
 }
 
-CellKey cell_of_brick(const CellKey& first, std::size_t cell) {
-  const auto part = [&](std::size_t i) { return first[i] + static_cast<int>(cell >> (3 * i) & 7); };
-  return {part(0), part(1), part(2)};
-}
-
 CellsByKind changed_cells(const OccupancyMap& before,
                           const OccupancyMap& after,
                           const MapDiffOptions& options,
@@ -58,7 +53,7 @@ CellsByKind changed_cells(const OccupancyMap& before,
     diff.compared_cells += static_cast<std::size_t>((known & now.known).count());
     const auto collect = [&](ChangeKind kind, const CellMask& changed, const OccupancyMap& other) {
       for_each_cell(changed, [&](std::size_t place) {
-        const CellKey cell = cell_of_brick(now.first, place);
+        const CellKey cell = cell_at(now.first, place);
         if (options.slack_cells > 0 && has_occupied_near(other, cell, options.slack_cells)) return;
         cells[static_cast<std::size_t>(kind)].push_back(cell);
       });

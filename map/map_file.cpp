@@ -45,11 +45,12 @@ std::vector<PackedBlock> pack_map(const LogOddsMap& map, int num_threads) {
 }
 
 void write_scan(std::ostream& stream, const KeptScan& scan) {
-  write_deflated(stream,
-                 MapBlockKind::kScan,
-                 scan_record_bytes(scan.record, scan.cells.skipped, scan.cells.blocks.size()));
+  write_deflated(stream, MapBlockKind::kScan, scan_record_bytes(scan));
   for (const PackedBricks& block : scan.cells.blocks) {
     write_map_block(stream, {MapBlockKind::kCells, block.raw_size, block.bytes});
+  }
+  for (const PackedColors& block : scan.colors) {
+    write_map_block(stream, {MapBlockKind::kScanColors, block.raw_size, block.bytes});
   }
 }
 
@@ -61,16 +62,26 @@ class MapAssembly {
     const Bytes raw = inflated(block.stored, block.raw_size);
     require(map_.has_value() == (block.kind != MapBlockKind::kOptions),
             "expected one block OPTS, as its first");
-    require((block.kind == MapBlockKind::kCells) == (cells_to_come_ > 0),
+    require((block.kind == MapBlockKind::kCells) == (cells_to_come_ > 0) &&
+                (block.kind == MapBlockKind::kScanColors) ==
+                    (cells_to_come_ == 0 && colors_to_come_ > 0),
             "expected ",
             cells_to_come_,
-            " more blocks of the scan's cells");
+            " more blocks of the scan's cells and ",
+            colors_to_come_,
+            " of its colours");
     switch (block.kind) {
       case MapBlockKind::kOptions:
         map_.emplace(parse_map_options(raw));
         return true;
       case MapBlockKind::kBricks:
         bricks_ += parse_map_bricks(raw, next_code_, map_->bricks());
+        return true;
+      case MapBlockKind::kColors:
+        map_->colors().add(parse_color_bricks(raw, next_color_));
+        return true;
+      case MapBlockKind::kScanColors:
+        add_scan_colors(block, raw);
         return true;
       case MapBlockKind::kScan:
         add_scan(raw);
@@ -91,7 +102,16 @@ class MapAssembly {
   void add_scan(const Bytes& raw) {
     ParsedRecord parsed = parse_scan_record(raw);
     cells_to_come_ = parsed.blocks;
+    colors_to_come_ = parsed.color_blocks;
+    next_scan_color_ = 0;
     scans_.push_back({std::move(parsed.record), {.blocks = {}, .skipped = parsed.skipped}});
+  }
+
+  void add_scan_colors(const MapBlock& block, const Bytes& raw) {
+    --colors_to_come_;
+    parse_color_bricks(raw, next_scan_color_);
+    scans_.back().colors.push_back(
+        {block.raw_size, Bytes(block.stored.begin(), block.stored.end())});
   }
 
   void add_cells(const MapBlock& block, const Bytes& raw) {
@@ -126,6 +146,9 @@ class MapAssembly {
   std::uint64_t next_code_ = 0;
   std::size_t bricks_ = 0;
   std::uint64_t cells_to_come_ = 0;
+  std::uint64_t colors_to_come_ = 0;
+  std::uint64_t next_color_ = 0;
+  std::uint64_t next_scan_color_ = 0;
 };
 
 }  // namespace
@@ -140,6 +163,9 @@ void write_map_file(const std::filesystem::path& path,
   write_deflated(stream, MapBlockKind::kOptions, map_options_bytes(map.options()));
   for (const PackedBlock& block : blocks) {
     write_map_block(stream, {MapBlockKind::kBricks, block.raw_size, block.bytes});
+  }
+  for (const PackedColors& block : pack_colors(map.colors().sorted())) {
+    write_map_block(stream, {MapBlockKind::kColors, block.raw_size, block.bytes});
   }
   for (const KeptScan& scan : scans) write_scan(stream, scan);
   const MapCounts counts{.bricks = map.bricks().sorted().size(), .scans = scans.size()};

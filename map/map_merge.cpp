@@ -5,6 +5,29 @@
 #include <algorithm>
 
 namespace facula {
+namespace {
+
+/// The source's colours in the target's cells, a brick per coloured cell.
+std::vector<ColorBrick> colors_in(const OccupancyMap& source, const ResampleGrid& grid) {
+  std::vector<ColorBrick> result;
+  for (const ColorBrick* brick : source.colors().sorted()) {
+    const CellKey first = first_cell(brick->code);
+    std::size_t rank = 0;
+    for_each_cell(brick->cells, [&](std::size_t place) {
+      const ColorSum& sum = brick->sums[rank++];
+      const Eigen::Vector3d centre = centre_of(cell_at(first, place), source.resolution());
+      const auto cell = cell_of(grid.target_from_source * centre, grid.resolution);
+      if (!cell) return;
+      ColorBrick& one = result.emplace_back();
+      one.code = brick_code(*cell);
+      one.cells.set(cell_in_brick(*cell));
+      one.sums.push_back(sum);
+    });
+  }
+  return result;
+}
+
+}  // namespace
 
 MapMerge merge_map(OccupancyMap& target,
                    const OccupancyMap& source,
@@ -26,6 +49,7 @@ MapMerge merge_map(OccupancyMap& target,
     result.new_cells += static_cast<std::size_t>(theirs.known.count()) - joined;
     ours.assign(values, known | theirs.known);
   });
+  target.colors().add(colors_in(source, grid));
   return result;
 }
 

@@ -21,10 +21,11 @@ struct MapMerge {
 /// is a whole number of cells, turned by right angles at most, this is the exact sum, cell by cell;
 /// otherwise cells are resampled: a source cell then speaks for as many target cells as have their
 /// middle in it, which may be none or two beside each other, and surfaces move by up to half a
-/// cell. Clamps keep no evidence beyond them, so a merge is not the map of all scans together (keep
-/// the scans, scan_map.hpp, for that). Target cells outside the 65536 cells of an axis are left
-/// out. The same for any number of threads. Throws Error for a pose that is not finite, and where
-/// the source would fill more than 2^25 bricks of 8 x 8 x 8 target cells.
+/// cell. Colours go to the target cell that their cell's middle falls into. Clamps keep no evidence
+/// beyond them, so a merge is not the map of all scans together (keep the scans, scan_map.hpp, for
+/// that). Target cells outside the 65536 cells of an axis are left out. The same for any number of
+/// threads. Throws Error for a pose that is not finite, and where the source would fill more than
+/// 2^25 bricks of 8 x 8 x 8 target cells.
 MapMerge merge_map(OccupancyMap& target,
                    const OccupancyMap& source,
                    const RigidTransform& target_from_source = {});

@@ -12,7 +12,7 @@
 namespace facula {
 namespace {
 
-/// As many bricks as a file may make (octree_file.cpp).
+/// 1 GB of memory where every one holds one value.
 constexpr double kMaxBricks = 1U << 25;
 
 /// Bricks that are held at once: about 9 MB.
@@ -122,10 +122,7 @@ ResampledBrick sample_brick(const OccupancyMap& source,
   const Eigen::Matrix3d turn = source_from_target.rotation.toRotationMatrix();
   const CellKey first = first_cell(code);
   for (std::size_t place = 0; place < kCellsPerBrick; ++place) {
-    const auto key = [&](std::size_t axis) {
-      return first[axis] + static_cast<int>(place >> (3 * axis) & 7);
-    };
-    const Eigen::Vector3d centre = centre_of({key(0), key(1), key(2)}, resolution);
+    const Eigen::Vector3d centre = centre_of(cell_at(first, place), resolution);
     const auto value = lookup(turn * centre + source_from_target.translation);
     if (!value) continue;
     result.known.set(place);

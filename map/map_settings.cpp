@@ -82,16 +82,18 @@ OccupancyOptions parse_map_options(ByteView bytes) {
   return options;
 }
 
-Bytes scan_record_bytes(const ScanRecord& record, std::size_t skipped, std::size_t blocks) {
+Bytes scan_record_bytes(const KeptScan& scan) {
+  const ScanRecord& record = scan.record;
   Bytes bytes;
   put(bytes, static_cast<std::uint32_t>(record.name.size()));
   put_bytes(bytes, record.name.data(), record.name.size());
   for (const double x : record.world_from_scan.translation) put(bytes, x);
   for (const double x : record.world_from_scan.rotation.coeffs()) put(bytes, x);
   put(bytes, std::uint64_t{record.points});
-  put(bytes, std::uint64_t{skipped});
+  put(bytes, std::uint64_t{scan.cells.skipped});
   put_cast(bytes, record.cast);
-  put(bytes, std::uint64_t{blocks});
+  put(bytes, std::uint64_t{scan.cells.blocks.size()});
+  put(bytes, std::uint64_t{scan.colors.size()});
   return bytes;
 }
 
@@ -105,6 +107,7 @@ ParsedRecord parse_scan_record(ByteView bytes) {
   parsed.skipped = reader.take<std::uint64_t>();
   parsed.record.cast = take_cast(reader);
   parsed.blocks = reader.take<std::uint64_t>();
+  parsed.color_blocks = reader.take<std::uint64_t>();
   require_used_up(reader, "SCAN");
   return parsed;
 }

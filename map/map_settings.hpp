@@ -19,10 +19,11 @@ OccupancyOptions parse_map_options(ByteView bytes);
 /// A scan's record in front of its blocks of cells.
 struct ParsedRecord {
   ScanRecord record;
-  std::uint64_t skipped = 0;  ///< points [1]
-  std::uint64_t blocks = 0;   ///< of cells that follow [1]
+  std::uint64_t skipped = 0;       ///< points [1]
+  std::uint64_t blocks = 0;        ///< of cells that follow [1]
+  std::uint64_t color_blocks = 0;  ///< of colours behind them [1]
 };
-Bytes scan_record_bytes(const ScanRecord& record, std::size_t skipped, std::size_t blocks);
+Bytes scan_record_bytes(const KeptScan& scan);
 ParsedRecord parse_scan_record(ByteView bytes);
 
 /// What the end of a file counts.

@@ -76,6 +76,7 @@ OccupancyMap::OccupancyMap(const OccupancyOptions& options) : options_(options) 
 
 void OccupancyMap::insert(const PointCloud& cloud) {
   insert(cells_of_scan(cloud, options_.cast()));
+  if (!cloud.colors.empty()) colors_.add(colors_of_scan(cloud, options_.cast()));
 }
 
 void OccupancyMap::insert(const ScanCells& scan) {
@@ -150,7 +151,14 @@ void OccupancyMap::write(const std::filesystem::path& path) const {
           "': expected a name ending in .ot (probabilities), .bt (free or occupied) or .fmap "
           "(everything)");
   AtomicFile file(path);
-  (extension == ".bt" ? write_bt : write_ot)(file.stream(), bricks_, options_.resolution);
+  std::ostream& stream = file.stream();
+  if (extension == ".bt") {
+    write_bt(stream, bricks_, options_.resolution);
+  } else if (colors_.empty()) {
+    write_ot(stream, bricks_, options_.resolution);
+  } else {
+    write_color_ot(stream, bricks_, colors_, options_.resolution);
+  }
   file.commit();
 }
 
@@ -160,6 +168,7 @@ OccupancyMap OccupancyMap::read(const std::filesystem::path& path) {
   OctreeContent content = read_octree(path, OccupancyOptions().model());
   OccupancyMap map({.resolution = content.resolution});
   map.bricks_ = std::move(content.map);
+  map.colors_ = std::move(content.colors);
   return map;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <facula/acquire/core/point_cloud.hpp>
+#include <facula/map/cell_colors.hpp>
 #include <facula/map/log_odds_map.hpp>
 #include <facula/map/scan_cells.hpp>
 
@@ -90,8 +91,8 @@ class OccupancyMap {
   /// Calls visit for every brick with a known cell, in Morton order.
   void for_each_brick(const std::function<void(const BrickView&)>& visit) const;
 
-  /// Writes .ot (probabilities), .bt (free or occupied) or .fmap (map_file.hpp), whole or not at
-  /// all.
+  /// Writes .ot (probabilities; with colours a ColorOcTree), .bt (free or occupied) or .fmap
+  /// (map_file.hpp), whole or not at all.
   void write(const std::filesystem::path& path) const;
 
   /// Reads .ot, .bt, .fmap or the index of a map in blocks (map_folder.hpp), whichever the file's
@@ -102,9 +103,14 @@ class OccupancyMap {
   LogOddsMap& bricks() { return bricks_; }
   const LogOddsMap& bricks() const { return bricks_; }
 
+  /// Colours of cells; empty where no cloud that was inserted had colours.
+  CellColors& colors() { return colors_; }
+  const CellColors& colors() const { return colors_; }
+
  private:
   OccupancyOptions options_;
   LogOddsMap bricks_;
+  CellColors colors_;
   std::size_t skipped_ = 0;
 };
 

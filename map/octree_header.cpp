@@ -10,6 +10,9 @@ namespace facula {
 namespace {
 
 constexpr std::string_view kTextStart = "# Octomap OcTree file";
+/// Red, green, blue.
+constexpr std::size_t kColorSize = 3;
+
 constexpr std::string_view kBinaryStart = "# Octomap OcTree binary file";
 
 template <typename Number>
@@ -40,12 +43,13 @@ void read_entry(std::string_view line, OctreeHeader& header, const std::string& 
   const std::string_view value =
       space == std::string_view::npos ? std::string_view() : trimmed(line.substr(space));
   if (key == "id") {
-    require(value == "OcTree",
+    header.colored = value == "ColorOcTree";
+    require(header.colored || value == "OcTree",
             "'",
             name,
             "' holds a '",
             value,
-            "'; only plain occupancy maps ('OcTree') are read");
+            "'; only occupancy maps ('OcTree', 'ColorOcTree') are read");
   } else if (key == "size") {
     header.nodes = number_of<std::size_t>(value, key, name);
   } else if (key == "res") {
@@ -56,7 +60,8 @@ void read_entry(std::string_view line, OctreeHeader& header, const std::string& 
 /// Counts nodes; stops with an Error where the bytes make no tree.
 class NodeWalk {
  public:
-  NodeWalk(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+  NodeWalk(std::string_view bytes, bool colored, const std::string& name)
+      : bytes_(bytes), name_(name), colored_(colored) {}
 
   std::size_t nodes() const { return nodes_; }
   std::size_t bytes_left() const { return bytes_.size(); }
@@ -67,6 +72,7 @@ class NodeWalk {
     float value = 0;
     std::memcpy(&value, take(sizeof value).data(), sizeof value);
     require(std::isfinite(value), "'", name_, "' is damaged: a node's value is not a number");
+    if (colored_) take(kColorSize);
     const auto children = static_cast<unsigned char>(take(1)[0]);
     for (int i = 0; i < 8; ++i) {
       if ((children >> i & 1) != 0) walk_text_node(depth + 1);
@@ -107,6 +113,7 @@ class NodeWalk {
 
   std::string_view bytes_;
   const std::string& name_;
+  bool colored_;
   std::size_t nodes_ = 0;
 };
 
@@ -114,16 +121,23 @@ class NodeWalk {
 class LeafWalk {
  public:
   LeafWalk(std::string_view bytes,
+           bool colored,
            std::pair<float, float> free_and_occupied,
            const std::function<void(const OctreeLeaf&)>& visit)
-      : bytes_(bytes), free_and_occupied_(free_and_occupied), visit_(visit) {}
+      : bytes_(bytes), colored_(colored), free_and_occupied_(free_and_occupied), visit_(visit) {}
 
   void walk_text_node(int level, const CellKey& first) {
     float value = 0;
     std::memcpy(&value, bytes_.data(), sizeof value);
-    const auto children = static_cast<unsigned char>(bytes_[sizeof value]);
-    bytes_.remove_prefix(sizeof value + 1);
-    if (children == 0) return visit_({level, first, value});
+    bytes_.remove_prefix(sizeof value);
+    std::optional<Color> color;
+    if (colored_) {
+      std::memcpy(color.emplace().data(), bytes_.data(), kColorSize);
+      bytes_.remove_prefix(kColorSize);
+    }
+    const auto children = static_cast<unsigned char>(bytes_[0]);
+    bytes_.remove_prefix(1);
+    if (children == 0) return visit_({level, first, value, color});
     for (int i = 0; i < 8; ++i) {
       if ((children >> i & 1) != 0) walk_text_node(level - 1, child_of(first, level, i));
     }
@@ -151,6 +165,7 @@ class LeafWalk {
   }
 
   std::string_view bytes_;
+  bool colored_;
   std::pair<float, float> free_and_occupied_;
   const std::function<void(const OctreeLeaf&)>& visit_;
 };
@@ -195,7 +210,7 @@ OctreeHeader parse_octree_header(std::string_view file, const std::string& name)
 void check_octree_nodes(const OctreeHeader& header,
                         std::string_view file,
                         const std::string& name) {
-  NodeWalk walk(file.substr(header.data_begin), name);
+  NodeWalk walk(file.substr(header.data_begin), header.colored, name);
   if (header.nodes > 0 && header.binary) walk.walk_binary_node(0);
   if (header.nodes > 0 && !header.binary) walk.walk_text_node(0);
   require(walk.nodes() == header.nodes && walk.bytes_left() == 0,
@@ -215,7 +230,7 @@ void for_each_octree_leaf(const OctreeHeader& header,
                           std::pair<float, float> free_and_occupied,
                           const std::function<void(const OctreeLeaf&)>& visit) {
   if (header.nodes == 0) return;
-  LeafWalk walk(file.substr(header.data_begin), free_and_occupied, visit);
+  LeafWalk walk(file.substr(header.data_begin), header.colored, free_and_occupied, visit);
   if (header.binary) {
     walk.walk_binary_node(kTreeDepth, {0, 0, 0});
   } else {

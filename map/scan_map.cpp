@@ -70,22 +70,26 @@ void ScanMap::check(const ScanRecord& record) const {
           " m; cast it again");
 }
 
-void ScanMap::add(const ScanRecord& record, const ScanCells& cells) {
+void ScanMap::add(const ScanRecord& record,
+                  const ScanCells& cells,
+                  std::span<const ColorBrick> colors) {
   check(record);
   const bool taken = std::any_of(scans_.begin(), scans_.end(), [&](const KeptScan& scan) {
     return scan.record.name == record.name;
   });
   require(!taken, "the map keeps a scan by the name '", record.name, "' already; replace that one");
-  scans_.push_back({record, pack(cells, map_.options().num_threads)});
+  scans_.push_back({record, pack(cells, map_.options().num_threads), pack_colors(colors)});
   map_.insert(cells);
+  map_.colors().add(colors);
 }
 
 void ScanMap::add(const std::string& name,
                   const PointCloud& cloud,
                   const RigidTransform& world_from_scan) {
   const CastOptions cast = map_.options().cast();
-  add({name, world_from_scan, cloud.size(), cast},
-      cells_of_scan(transformed(cloud, world_from_scan), cast));
+  const PointCloud in_world = transformed(cloud, world_from_scan);
+  const ScanCells cells = cells_of_scan(in_world, cast);
+  add({name, world_from_scan, cloud.size(), cast}, cells, colors_of_scan(in_world, cast));
 }
 
 std::size_t ScanMap::place_of(std::string_view name) const {
@@ -106,17 +110,22 @@ Rebuild ScanMap::remove(std::string_view name) {
   const std::size_t place = place_of(name);
   std::vector<std::uint64_t> codes;
   append_codes(unpack(scans_[place].cells), codes);
+  map_.colors().subtract(unpack_colors(scans_[place].colors));
   scans_.erase(scans_.begin() + static_cast<std::ptrdiff_t>(place));
   return rebuild(std::move(codes));
 }
 
-Rebuild ScanMap::replace(const ScanRecord& record, const ScanCells& cells) {
+Rebuild ScanMap::replace(const ScanRecord& record,
+                         const ScanCells& cells,
+                         std::span<const ColorBrick> colors) {
   check(record);
   KeptScan& scan = scans_[place_of(record.name)];
   std::vector<std::uint64_t> codes;
   append_codes(unpack(scan.cells), codes);
   append_codes(cells, codes);
-  scan = {record, pack(cells, map_.options().num_threads)};
+  map_.colors().subtract(unpack_colors(scan.colors));
+  map_.colors().add(colors);
+  scan = {record, pack(cells, map_.options().num_threads), pack_colors(colors)};
   return rebuild(std::move(codes));
 }
 
@@ -149,6 +158,7 @@ std::size_t ScanMap::scan_memory() const {
   std::size_t bytes = 0;
   for (const KeptScan& scan : scans_) {
     bytes += sizeof scan + scan.record.name.capacity() + scan.cells.memory_usage();
+    for (const PackedColors& block : scan.colors) bytes += sizeof block + block.bytes.capacity();
   }
   return bytes;
 }

@@ -4,11 +4,13 @@
 #include <facula/acquire/core/rigid_transform.hpp>
 #include <facula/map/occupancy_map.hpp>
 #include <facula/map/packed_cells.hpp>
+#include <facula/map/packed_colors.hpp>
 
 #include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace facula {
@@ -25,6 +27,7 @@ struct ScanRecord {
 struct KeptScan {
   ScanRecord record;
   PackedCells cells;
+  std::vector<PackedColors> colors = {};  ///< of the cells its rays ended in; empty without
 };
 
 /// What a change of the scans took.
@@ -45,9 +48,11 @@ class ScanMap {
   /// name, or were cast at another resolution.
   ScanMap(OccupancyMap map, std::vector<KeptScan> scans);
 
-  /// Inserts a scan's cells and keeps them. Throws Error when the name is taken, or the cells are
-  /// of another resolution.
-  void add(const ScanRecord& record, const ScanCells& cells);
+  /// Inserts a scan's cells, and colours where it has some, and keeps them. Throws Error when the
+  /// name is taken, or the cells are of another resolution.
+  void add(const ScanRecord& record,
+           const ScanCells& cells,
+           std::span<const ColorBrick> colors = {});
 
   /// Casts a cloud of the scan frame, with sensor origins, at its pose, and adds it.
   void add(const std::string& name, const PointCloud& cloud, const RigidTransform& world_from_scan);
@@ -56,7 +61,14 @@ class ScanMap {
   Rebuild remove(std::string_view name);
 
   /// Puts other cells in the place of the scan of that name: cast from a new pose, or scanned anew.
-  Rebuild replace(const ScanRecord& record, const ScanCells& cells);
+  Rebuild replace(const ScanRecord& record,
+                  const ScanCells& cells,
+                  std::span<const ColorBrick> colors = {});
+
+  /// The map alone and its scans; this is empty afterwards.
+  std::pair<OccupancyMap, std::vector<KeptScan>> release() && {
+    return {std::move(map_), std::move(scans_)};
+  }
 
   const OccupancyMap& map() const { return map_; }
   std::span<const KeptScan> scans() const { return scans_; }  ///< in the order of their insertion

@@ -205,7 +205,7 @@ TEST(OctreeFile, SaysWhatIsWrongWithForeignFiles) {
   const std::map<std::string, std::string> cases = {
       {"ply\nformat ascii 1.0\n", "not an OctoMap file"},
       {"", "not an OctoMap file"},
-      {start + "id ColorOcTree\nsize 3\nres 0.1\ndata\n", "ColorOcTree"},
+      {start + "id OcTreeStamped\nsize 3\nres 0.1\ndata\n", "OcTreeStamped"},
       {start + "id OcTree\nsize many\nres 0.1\ndata\n", "many"},
       {start + "id OcTree\nsize 1\nres -0.1\ndata\n", "resolution"},
       {start + "id OcTree\nsize 1\nres nan\ndata\n", "resolution"},
