@@ -258,22 +258,25 @@ TEST_F(BadInput, PicturesThatDecideNoCameraAndNoSheet) {
   const auto refused = [&](const std::string& command, const std::string& words) {
     expect_refused("true", "facula calibrate " + command + " --out result.toml", words);
   };
-  ASSERT_EQ(run("facula calibrate board" + rig + board + "--views 3 --lit --out b").code, 0);
-  ASSERT_EQ(run("facula calibrate board" + rig + board + "--views 3 --tilt-deg 0 --out f").code, 0);
-  refused("camera b/dark_0.png" + board, "3 pictures or more");
-  refused("camera b/dark_0.png b/dark_1.png" + board, "3 pictures or more");
-  refused("camera b/dark_0.png b/dark_0.png b/dark_0.png" + board, "parallel to each other");
+  // Small pictures where they do: finding a board takes its time.
+  const std::string small = " --rig data/rigs/head_fs1500.toml ";
+  ASSERT_EQ(run("facula calibrate board" + rig + board + "--views 2 --lit --out b").code, 0);
+  ASSERT_EQ(run("facula calibrate board" + small + board + "--views 2 --out s").code, 0);
+  ASSERT_EQ(run("facula calibrate board" + small + board + "--views 3 --tilt-deg 0 --out f").code,
+            0);
+  refused("camera s/dark_0.png" + board, "3 pictures or more");
+  refused("camera s/dark_0.png s/dark_1.png" + board, "3 pictures or more");
+  refused("camera s/dark_0.png s/dark_0.png s/dark_0.png" + board, "parallel to each other");
   refused("camera f/dark_0.png f/dark_1.png f/dark_2.png" + board, "parallel to each other");
-  refused("camera b/dark_0.png b/dark_1.png b/dark_2.png --cols 8 --rows 6 --spacing-mm 12",
-          "9 x 6 points instead of 8 x 6");
+  refused("camera b/dark_0.png --cols 8 --rows 6 --spacing-mm 12", "9 x 6 points instead of 8 x 6");
   refused("laser b/lit_0.png" + board + rig, "2 pictures or more");
   refused("laser b/lit_0.png b/lit_0.png" + board + rig, "hold the board at several distances");
-  refused("laser b/dark_0.png b/dark_1.png b/dark_2.png" + board + rig, "line");
+  refused("laser b/dark_0.png b/dark_1.png" + board + rig, "line");
 }
 
 TEST_F(BadInput, TooLittleMemoryIsASentence) {
   ASSERT_EQ(run("facula extract capture --out s.pcd").code, 0);
-  expect_refused("true", "ulimit -v 3000000; facula map s.pcd --resolution-mm 0.5 --out result.bt");
+  expect_refused("true", "ulimit -v 3000000; facula map s.pcd --resolution-mm 0.2 --out result.bt");
 }
 
 }  // namespace
