@@ -90,22 +90,19 @@ FigureTable table_of(const std::vector<RankFigures>& ranks) {
                                 {"writing_s", "writing", 3},
                                 {"map_memory_mib", "map", 1},
                                 {"peak_memory_mib", "peak memory", 1}}};
-  const auto whole = [](std::uint64_t value) { return static_cast<long long>(value); };
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     const RankFigures& rank = ranks[i];
-    table.rows.push_back({whole(i),
-                          whole(rank.scans),
-                          whole(rank.rays),
-                          whole(rank.sent),
-                          whole(rank.bricks),
-                          rank.reading,
-                          rank.casting,
-                          rank.waiting,
-                          rank.exchanging,
-                          rank.applying,
-                          rank.writing,
-                          static_cast<double>(rank.map_memory) / kMebibyte,
-                          static_cast<double>(rank.peak_memory) / kMebibyte});
+    std::vector<FigureValue>& row = table.rows.emplace_back();
+    for (const std::uint64_t count :
+         {std::uint64_t{i}, rank.scans, rank.rays, rank.sent, rank.bricks}) {
+      row.emplace_back(static_cast<long long>(count));
+    }
+    for (const double seconds :
+         {rank.reading, rank.casting, rank.waiting, rank.exchanging, rank.applying, rank.writing}) {
+      row.emplace_back(seconds);
+    }
+    row.emplace_back(static_cast<double>(rank.map_memory) / kMebibyte);
+    row.emplace_back(static_cast<double>(rank.peak_memory) / kMebibyte);
   }
   return table;
 }
