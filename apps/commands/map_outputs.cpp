@@ -36,7 +36,7 @@ std::vector<std::filesystem::path> files_of(const MapOutputs& o) {
 Floor given_or_found_floor(const OccupancyMap& map, const MapOutputs& o) {
   if (!o.floor) return find_floor(map);
   const double cell = map.resolution();
-  return {.height = *o.floor, .top = (std::floor(*o.floor / cell) + 1) * cell};
+  return {.height = *o.floor, .top = (std::floor(*o.floor / cell + 1e-6) + 1) * cell};
 }
 
 /// The heights that block the robot, in the world. What the floor's own cells fill blocks nobody.
