@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/cloud_file.hpp>
+#include <facula/acquire/core/whole_file.hpp>
+#include <facula/map/map_file.hpp>
+#include <facula/map/scan_graph.hpp>
+#include <facula/tests/apps/cli/program_run.hpp>
+#include <facula/tests/map/random_scans.hpp>
+#include <facula/tests/support/temporary_folder.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace facula {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kResolution = 0.1;
+
+/// Free but for a block of occupied cells, 2 x 2 x 2 m from 0 on.
+OccupancyMap room_with_block(int x) {
+  OccupancyMap map({.resolution = kResolution});
+  CellMask occupied;
+  for (int place = 0; place < 8; ++place) {
+    occupied.set(cell_in_brick({x + (place & 1), place >> 1 & 1, place >> 2}));
+  }
+  for (int i = 0; i < 16; ++i) {
+    ScanCells cells;
+    for (const std::uint64_t code : {0, 1, 2, 3, 4, 5, 6, 7}) {
+      const CellKey first = first_cell(code);
+      const CellKey key = {first[0] + kCentreKey, first[1] + kCentreKey, first[2] + kCentreKey};
+      cells.bricks.push_back({brick_code(key), CellMask::all(), {}});
+    }
+    cells.bricks.front().passed = ~occupied;
+    cells.bricks.front().ended = occupied;
+    map.insert(cells);
+  }
+  return map;
+}
+
+class MapFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    room_with_block(1).write(folder_ / "before.ot");
+    room_with_block(5).write(folder_ / "after.fmap");
+  }
+
+  Json figures(const std::string& line) {
+    const ProgramRun run = run_line(line + " --json -", folder_.path());
+    EXPECT_EQ(run.code, 0) << run.err;
+    return Json::parse(run.out, nullptr, false);
+  }
+
+  ProgramRun run(const std::string& line) { return run_line(line, folder_.path()); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(MapFiles, DiffListsAndColorsWhatMoved) {
+  const Json json =
+      figures("facula map diff before.ot after.fmap --slack-cells 0 --out diff.ply --csv diff.csv");
+  EXPECT_EQ(json["compared_cells"], 8 * 512);
+  EXPECT_EQ(json["changed_cells"], 16);
+  ASSERT_EQ(json["clusters"].size(), 2U);
+  EXPECT_EQ(json["clusters"][0]["change"], "appeared");
+  EXPECT_EQ(json["clusters"][1]["change"], "vanished");
+  EXPECT_NEAR(json["clusters"][0]["x_m"].get<double>(), 0.6, 1e-9);
+  EXPECT_NEAR(json["clusters"][1]["x_m"].get<double>(), 0.2, 1e-9);
+  EXPECT_NEAR(json["clusters"][0]["volume_m3"].get<double>(), 0.008, 1e-12);
+  const PointCloud cloud = read_cloud(folder_ / "diff.ply");
+  EXPECT_EQ(cloud.size(), 16U);
+  EXPECT_EQ(cloud.colors.size(), 16U);
+  EXPECT_TRUE(read_whole_file(folder_ / "diff.csv").starts_with("change,cells,volume_m3"));
+}
+
+TEST_F(MapFiles, DiffSeesThroughThePose) {
+  const Json json =
+      figures("facula map diff before.ot after.fmap --slack-cells 0 --position-mm -400 0 0");
+  EXPECT_EQ(json["cluster_count"], 0);
+  EXPECT_EQ(json["compared_cells"], 12 * 16 * 16);
+}
+
+TEST_F(MapFiles, MergeKeepsTheFirstMapsFrame) {
+  const Json json = figures(
+      "facula map merge before.ot after.fmap --position-mm 1600 0 0 --out both.fmap --out both.bt");
+  EXPECT_EQ(json["exact"], true);
+  EXPECT_EQ(json["new_cells"], 8 * 512);
+  EXPECT_EQ(json["joined_cells"], 0);
+  EXPECT_EQ(figures("facula info both.fmap")["occupied_cells"], 16);
+  EXPECT_EQ(figures("facula info both.bt")["occupied_cells"], 16);
+  EXPECT_EQ(
+      figures("facula map merge before.ot after.fmap --position-mm 50 0 0 --out x.bt")["exact"],
+      false);
+}
+
+TEST_F(MapFiles, InfoNamesTheScansThatAMapKeeps) {
+  ScanMap scans({.resolution = kResolution});
+  RigidTransform pose;
+  pose.translation = {1, 2, 3};
+  scans.add("hall", random_scan(1, 500), pose);
+  scans.add("stairs", random_scan(2, 700), {});
+  write_map_file(folder_ / "kept.fmap", scans.map(), scans.scans());
+  const Json json = figures("facula info kept.fmap");
+  EXPECT_EQ(json["kept_scans"], 2);
+  EXPECT_EQ(json["scans"][0]["name"], "hall");
+  EXPECT_EQ(json["scans"][0]["z_m"], 3);
+  EXPECT_EQ(json["scans"][1]["points"], 700);
+}
+
+TEST_F(MapFiles, ALogOfOctoMapIsAProjectWhoseMapVerifies) {
+  ScanGraph graph;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    GraphScan& scan = graph.scans.emplace_back();
+    scan.id = i;
+    scan.points = random_scan(i, 2000).points;
+    scan.world_from_scan.translation = {static_cast<float>(i), 0.3F, 0.1F};
+    scan.world_from_scan.rotation = Eigen::AngleAxisf(0.7F, Eigen::Vector3f(1, 2, 3).normalized());
+  }
+  write_scan_graph(folder_ / "log.graph", graph);
+  EXPECT_EQ(figures("facula info log.graph")["scan_count"], 3);
+  figures("facula map log.graph --resolution-mm 50 --out log.ot");
+  OccupancyMap direct({.resolution = 0.05});
+  for (const GraphScan& scan : graph.scans) direct.insert(world_cloud(scan));
+  EXPECT_TRUE(is_same_map(OccupancyMap::read(folder_ / "log.ot"), direct));
+}
+
+TEST_F(MapFiles, DamageIsOneSentence) {
+  const std::string whole = read_whole_file(folder_ / "after.fmap");
+  folder_.write("torn.fmap", whole.substr(0, whole.size() / 2));
+  folder_.write("torn.graph", std::string("\5\0\0\0\1\0\0\0", 8));
+  std::string flipped = whole;
+  flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 1);
+  folder_.write("flipped.fmap", flipped);
+  for (const char* line : {"facula info torn.fmap",
+                           "facula info flipped.fmap",
+                           "facula info torn.graph",
+                           "facula map torn.graph --out x.bt",
+                           "facula map diff before.ot flipped.fmap",
+                           "facula map merge torn.fmap before.ot --out x.bt"}) {
+    const ProgramRun damaged = run(line);
+    EXPECT_EQ(damaged.code, 1) << line;
+    EXPECT_EQ(std::count(damaged.err.begin(), damaged.err.end(), '\n'), 1) << damaged.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "x.bt"));
+  EXPECT_EQ(run("facula map diff before.ot").code, 2);
+  EXPECT_EQ(run("facula map merge before.ot after.fmap before.ot --out x.bt").code, 2);
+}
+
+}  // namespace
+}  // namespace facula
