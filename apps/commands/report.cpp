@@ -4,7 +4,9 @@
 #include <facula/acquire/core/scan_file.hpp>
 #include <facula/apps/cli/file_kind.hpp>
 #include <facula/apps/cli/output_path.hpp>
+#include <facula/apps/commands/map_report.hpp>
 #include <facula/apps/commands/measure_compare.hpp>
+#include <facula/apps/commands/path_table.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
 #include <facula/apps/commands/report.hpp>
 #include <facula/apps/commands/report_sections.hpp>
@@ -27,6 +29,8 @@ struct ReportArguments {
   std::vector<std::filesystem::path> scans;
   std::filesystem::path mesh;
   std::filesystem::path map;
+  bool next_scans = false;
+  std::filesystem::path path;
   std::filesystem::path grid;
   std::filesystem::path project;
   std::filesystem::path pictures;
@@ -50,6 +54,8 @@ void declare(Arguments& arguments, ReportArguments& a) {
   arguments.input("--compare", a.compare, "points to show in the colours of their deviations");
   arguments.input("--reference", a.reference, "the mesh or cloud that --compare deviates from");
   arguments.input("--map", a.map, "an occupancy map (.bt, .ot) from above");
+  arguments.flag("--next-scans", a.next_scans, "of --map also: its floor and where to scan next");
+  arguments.input("--path", a.path, "a path (.csv of 'map plan') over the map");
   arguments.output("--pictures", a.pictures, "folder that also gets every picture as a .png");
   arguments.input("--grid", a.grid, "a navigation grid (.yaml) from above");
 }
@@ -122,8 +128,16 @@ Report make_report(const ReportArguments& a, Session& session) {
   add_comparison(a, session.num_threads, report);
   session.step("maps", 5, kSteps);
   if (!a.map.empty()) {
-    report.sections.push_back(
-        map_section(a.map.filename().string(), OccupancyMap::read(a.map), poses));
+    const std::string name = a.map.filename().string();
+    const OccupancyMap map = OccupancyMap::read(a.map);
+    report.sections.push_back(map_section(name, map, poses));
+    if (a.next_scans) {
+      report.sections.push_back(next_scans_section(name, map, session.num_threads));
+    }
+    if (!a.path.empty()) {
+      report.sections.push_back(
+          path_section(a.path.filename().string(), map, read_path_table(a.path)));
+    }
   }
   if (!a.grid.empty()) {
     report.sections.push_back(
@@ -134,6 +148,9 @@ Report make_report(const ReportArguments& a, Session& session) {
 
 void run(const ReportArguments& a, Session& session) {
   check_output(a.out, {".html", ".htm"});
+  require(a.path.empty() || !a.map.empty(),
+          "expected --map beside --path, got none; give the map the path was planned in");
+  require(!a.next_scans || !a.map.empty(), "--next-scans needs --map, the map to scan on from");
   const Report report = make_report(a, session);
   require(!report.sections.empty(),
           "expected something to show, got none; give --capture, --scan, "
