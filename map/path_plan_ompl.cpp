@@ -35,6 +35,7 @@ namespace og = ompl::geometric;
 
 constexpr double kTreeStep = 1.5;            // longest branch of a tree [m]
 constexpr double kReach = 1;                 // clearances beyond radius + this help no more [m]
+constexpr std::size_t kMostPaths = 8;        // compared with each other
 constexpr unsigned int kRounds = 4;          // of shortening
 constexpr unsigned int kShortcuts = 200;     // tried per round
 constexpr unsigned int kSmoothingSteps = 3;  // halvings of the corners
@@ -275,7 +276,7 @@ PathPlan search(const Task& task,
     if (!best || path->length() < best->length()) best = path;
     ++paths;
     limit = options.more_tries;
-  } while (tries < limit);
+  } while (tries < limit && paths < kMostPaths);
   require(
       best != nullptr,
       "expected a path that keeps ",

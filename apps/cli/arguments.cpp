@@ -28,6 +28,12 @@ double parsed_number(const std::string& name, const std::string& word, Unit unit
   return *value * unit.factor;
 }
 
+Eigen::Vector3d parsed_vector(const std::string& name, const Words& words, Unit unit) {
+  return {parsed_number(name, words.at(0), unit),
+          parsed_number(name, words.at(1), unit),
+          parsed_number(name, words.at(2), unit)};
+}
+
 long long parsed_whole(const std::string& name, const std::string& word, long long largest) {
   const std::optional<long long> value = parse_number<long long>(word);
   if (!value || *value < 0 || *value > largest) {
@@ -147,9 +153,18 @@ void Arguments::vector(const std::string& name,
                             typed_in(target.z(), unit)));
   specs_.back().words = 3;
   specs_.back().set = [&target, name, unit](const Words& words) {
-    for (int i = 0; i < 3; ++i) {
-      target[i] = parsed_number(name, words[static_cast<std::size_t>(i)], unit);
-    }
+    target = parsed_vector(name, words, unit);
+  };
+}
+
+void Arguments::vector(const std::string& name,
+                       std::optional<Eigen::Vector3d>& target,
+                       Unit unit,
+                       const std::string& help) {
+  specs_.push_back(spec(name, "X Y Z", help));
+  specs_.back().words = 3;
+  specs_.back().set = [&target, name, unit](const Words& words) {
+    target = parsed_vector(name, words, unit);
   };
 }
 

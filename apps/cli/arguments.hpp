@@ -61,6 +61,10 @@ class Arguments {
               Unit unit,
               const std::string& help);
   void vector(const std::string& name, Eigen::Vector3d& target, Unit unit, const std::string& help);
+  void vector(const std::string& name,
+              std::optional<Eigen::Vector3d>& target,
+              Unit unit,
+              const std::string& help);
 
   /// Whole numbers, 0 or more.
   void whole(const std::string& name, int& target, const std::string& help);

@@ -16,6 +16,8 @@
 #include <facula/apps/commands/map.hpp>
 #include <facula/apps/commands/map_diff.hpp>
 #include <facula/apps/commands/map_merge.hpp>
+#include <facula/apps/commands/map_plan.hpp>
+#include <facula/apps/commands/map_query.hpp>
 #include <facula/apps/commands/measure_angles.hpp>
 #include <facula/apps/commands/measure_compare.hpp>
 #include <facula/apps/commands/measure_distance.hpp>
@@ -56,7 +58,9 @@ std::vector<Command> all_commands() {
        measure_two_line_command(),
        map_command(),
        map_merge_command(),
-       map_diff_command()});
+       map_diff_command(),
+       map_query_command(),
+       map_plan_command()});
   add("A head with a board",
       {calibrate_camera_command(),
        calibrate_laser_command(),

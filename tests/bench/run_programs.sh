@@ -14,7 +14,7 @@ cpu=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1 | tr -d '"\\')
   printf '{\n"machine": {"cpu": "%s", "cores": %s, "kernel": "%s", "date": "%s"},\n"programs": [\n' \
     "$cpu" "$(nproc)" "$(uname -sr)" "$(date -u +%Y-%m-%dT%H:%M:%SZ)"
   separator=
-  for name in filter extract log map query distance mesh register flatness volumetric; do
+  for name in filter extract log map query distance plan mesh register flatness volumetric; do
     "$bin/bench_$name" --benchmark_out="$parts/$name.json" --benchmark_out_format=json "$@" >&2
     printf '%s{"program": "bench_%s", "result":\n' "$separator" "$name"
     cat "$parts/$name.json"
