@@ -32,8 +32,8 @@ struct WatertightResult {
 /// A closed, manifold mesh without self-intersections of the same surface, verified by
 /// judge_mesh(): repaired, small pieces removed, every hole filled, triangles that cut each other
 /// cut out with their neighbours and filled again; an alpha wrap where that does not get there or
-/// eats up the surface. Throws Error saying what remains wrong when nothing passes. `points`, when not empty, are
-/// what the deviation in the verdict is measured of.
+/// eats up the surface. Throws Error saying what remains wrong when nothing passes. `points`, when
+/// not empty, are what the deviation in the verdict is measured of.
 WatertightResult make_watertight(const TriangleMesh& mesh,
                                  const std::vector<Eigen::Vector3f>& points = {},
                                  const WatertightOptions& options = {});
