@@ -36,12 +36,12 @@ PointCloud read_by_extension(const std::filesystem::path& path, ScanGrid* grid) 
   if (extension == ".ply") return read_ply_cloud(path, grid);
   if (extension == ".pcd") return read_pcd_cloud(path);
   if (extension == ".asc") return read_point_text(path, 2);
-  if (extension == ".xyz" || extension == ".txt" || extension == ".csv") {
+  if (extension == ".xyz" || extension == ".txt" || extension == ".csv" || extension == ".dat") {
     return read_point_text(path, 0);
   }
   fail("cannot read a cloud from '",
        path.string(),
-       "': expected a name that ends in .ply, .pcd, .xyz, .txt, .csv or .asc");
+       "': expected a name that ends in .ply, .pcd, .xyz, .txt, .csv, .dat or .asc");
 }
 
 void write_ply_cloud(const std::filesystem::path& path, const PointCloud& cloud) {

@@ -82,7 +82,7 @@ FileKind file_kind(const fs::path& path) {
     if (extension == map) return FileKind::kMap;
   }
   if (extension == ".yaml" || extension == ".yml") return FileKind::kGrid;
-  for (const char* points : {".asc", ".xyz", ".txt", ".csv", ".3d"}) {
+  for (const char* points : {".asc", ".xyz", ".txt", ".csv", ".dat", ".3d"}) {
     if (extension == points) return FileKind::kCloud;
   }
   fail(

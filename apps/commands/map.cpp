@@ -6,12 +6,14 @@
 #include <facula/apps/commands/map.hpp>
 #include <facula/apps/commands/map_figures.hpp>
 #include <facula/apps/commands/map_outputs.hpp>
+#include <facula/apps/commands/map_scans.hpp>
 #include <facula/apps/commands/occupancy_arguments.hpp>
 #include <facula/apps/commands/place_scans.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
+#include <facula/map/map_file.hpp>
 #include <facula/map/occupancy_map.hpp>
-#include <facula/map/octomap_judge.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +24,8 @@ namespace {
 struct MapArguments {
   std::vector<std::filesystem::path> scans;
   std::vector<std::filesystem::path> out;
+  std::filesystem::path update;
+  std::string remove;
   std::string place = "auto";
   bool verify = false;
   OccupancyOptions options;
@@ -33,7 +37,15 @@ void declare(Arguments& arguments, MapArguments& a) {
                    a.scans,
                    "a scan, several, a project (poses.toml, .conf, folder), or a finished map");
   arguments.required();
-  arguments.outputs("--out", a.out, "the map: .bt (free or occupied) or .ot (probabilities)");
+  arguments.outputs("--out",
+                    a.out,
+                    "the map: .bt (free or occupied), .ot (probabilities), or .fmap (both and the "
+                    "scans, so that they can be changed later)");
+  arguments.input("--update",
+                  a.update,
+                  "a .fmap to bring up to date: scans of new names are added, those that changed "
+                  "or stand elsewhere replaced; its cells and sensor model stay");
+  arguments.word("--remove", a.remove, "take the scan of this name out of a .fmap");
   declare_occupancy(arguments, a.options);
   arguments.choice("--register",
                    a.place,
@@ -53,50 +65,59 @@ PosedScans read_scans(const MapArguments& a, Session& session) {
   return scans;
 }
 
-/// Says whether liboctomap made the same map; throws Error where it did not.
-void report_verdict(const OctomapJudge& judge, const OccupancyMap& map, Figures& figures) {
-  const OctomapVerdict verdict = judge.verdict(map);
-  require(verdict.same_ot && verdict.same_bt,
-          "the map differs from liboctomap's of the same scans (",
-          verdict.nodes,
-          " nodes there); this is a defect of Facula: please report it with the scans");
-  figures.flag("same_as_octomap", "same as liboctomap", true);
-  figures.number("octomap_seconds", "liboctomap took, s", verdict.seconds, 3);
-  figures.count("octomap_memory", "memory of its tree, bytes", verdict.memory);
+bool wants_scans_kept(const MapArguments& a) {
+  return std::any_of(a.out.begin(), a.out.end(), [](const std::filesystem::path& path) {
+    return path.extension() == ".fmap";
+  });
 }
 
-OccupancyMap build_map(const MapArguments& a, Session& session) {
-  const PosedScans scans = read_scans(a, session);
+/// Whether the command was given a map that is finished already.
+bool is_finished(const MapArguments& a) {
+  return a.scans.size() == 1 && file_kind(a.scans[0]) == FileKind::kMap;
+}
+
+/// The map and, for .fmap files, the scans behind it.
+struct MadeMap {
+  OccupancyMap map;
+  std::vector<KeptScan> scans;
+};
+
+MadeMap parts_of(ScanMap map) {
+  auto [occupancy, scans] = std::move(map).release();
+  return {std::move(occupancy), std::move(scans)};
+}
+
+MadeMap changed_map(const MapArguments& a, Session& session) {
+  ScanMap map = read_scan_map(is_finished(a) ? a.scans[0] : a.update, session.num_threads);
+  if (!a.remove.empty()) remove_scan(map, a.remove, session);
+  if (!is_finished(a)) update_map(map, read_scans(a, session), session);
+  return parts_of(std::move(map));
+}
+
+MadeMap make_map(const MapArguments& a, Session& session) {
+  if (!a.update.empty() || !a.remove.empty()) return changed_map(a, session);
+  if (is_finished(a)) {
+    if (a.scans[0].extension() != ".fmap") return {OccupancyMap::read(a.scans[0]), {}};
+    MapFile file = read_map_file(a.scans[0]);
+    return {std::move(file.map), std::move(file.scans)};
+  }
   OccupancyOptions options = a.options;
   options.num_threads = session.num_threads;
-  OccupancyMap map(options);
-  std::optional<OctomapJudge> judge;
-  if (a.verify) judge.emplace(options);
-  const Progress progress = session.progress("casting rays");
-  std::size_t done = 0;
-  for (const PosedCloud& scan : scans.project.scans) {
-    const PointCloud cloud = transformed(scan.cloud, scan.world_from_scan);
-    map.insert(cloud);
-    if (judge) judge->insert(cloud);
-    progress(++done, scans.project.scans.size());
+  const PosedScans scans = read_scans(a, session);
+  MadeMap made;
+  if (wants_scans_kept(a)) {
+    ScanMap map(options);
+    update_map(map, scans, session);
+    made = parts_of(std::move(map));
+  } else {
+    made.map = map_of_scans(scans, options, session);
   }
-  require(map.skipped_points() < scans.points_read - scans.mixed_removed,
-          "expected points within 32768 cells of the origin, got none at a cell of ",
-          1000 * options.resolution,
-          " mm; choose a larger --resolution-mm, or look at the scan with 'facula info'");
-  if (judge) report_verdict(*judge, map, session.figures);
-  return map;
-}
-
-/// A map that is finished already, when it is what the command was given.
-std::optional<OccupancyMap> finished_map(const MapArguments& a) {
-  if (a.scans.size() != 1 || file_kind(a.scans[0]) != FileKind::kMap) return std::nullopt;
-  if (a.verify) fail_usage("--verify needs the scans; '", a.scans[0].string(), "' is a map");
-  return OccupancyMap::read(a.scans[0]);
+  if (a.verify) verify_map(made.map, scans, session);
+  return made;
 }
 
 void check(const MapArguments& a) {
-  for (const auto& path : a.out) check_output(path, {".bt", ".ot"});
+  for (const auto& path : a.out) check_output(path, {".bt", ".ot", ".fmap"});
   check_map_outputs(a.outputs);
   if (a.out.empty() && !a.outputs.any()) {
     fail_usage("expected something to write: --out, --grid, --height-map or --frontiers");
@@ -104,19 +125,26 @@ void check(const MapArguments& a) {
   if (a.verify && a.options.weigh_sigma) {
     fail_usage("--verify and --weigh-sigma exclude each other: OctoMap does not weigh hits");
   }
+  if (a.verify && (is_finished(a) || !a.update.empty())) {
+    fail_usage("--verify needs all the scans, and a map made of them alone");
+  }
+  if (!a.remove.empty() && a.update.empty() && !is_finished(a)) {
+    fail_usage("--remove needs a map that keeps its scans: give a .fmap file, or --update one");
+  }
   a.options.check();
+}
+
+void write_map(const std::filesystem::path& path, const MadeMap& made) {
+  if (path.extension() == ".fmap") return write_map_file(path, made.map, made.scans);
+  made.map.write(path);
 }
 
 void run(const MapArguments& a, Session& session) {
   check(a);
-  std::optional<OccupancyMap> map = finished_map(a);
-  if (!map) {
-    map = build_map(a, session);
-    session.figures.count("skipped_points", "points skipped", map->skipped_points());
-  }
-  for (const auto& path : a.out) map->write(path);
-  report_map(*map, session.figures);
-  write_map_outputs(*map, a.outputs, session);
+  const MadeMap made = make_map(a, session);
+  for (const auto& path : a.out) write_map(path, made);
+  report_map(made.map, session.figures);
+  write_map_outputs(made.map, a.outputs, session);
 }
 
 }  // namespace
@@ -141,7 +169,9 @@ Command map_command() {
            "room.yaml --min-height-m 0.1 --max-height-m 1.5",
            "facula map room.bt --above-floor --grid raw.yaml --grid-mode raw --inflate-m 0.2 "
            "--height-map heights.tif --frontiers next.csv --frontiers next.png --scanner-range-m 5 "
-           "--scanner-height-m 1.1"},
+           "--scanner-height-m 1.1",
+           "facula map room.pcd --resolution-mm 100 --out room.fmap",
+           "facula map room.pcd --update room.fmap --out room.fmap --json -"},
       .declare = [a](Arguments& arguments) { declare(arguments, *a); },
       .run = [a](Session& session) { run(*a, session); }};
 }

@@ -16,6 +16,7 @@ void report_map(const OccupancyMap& map, Figures& figures) {
   figures.count("free_cells", "free cells", statistics.free_cells);
   figures.count("occupied_cells", "occupied cells", statistics.occupied_cells);
   figures.count("nodes", "nodes of the tree", statistics.nodes);
+  figures.count("memory", "memory, bytes", statistics.memory);
   figures.numbers("min_m", "lower corner", {low.x(), low.y(), low.z()}, 3);
   figures.numbers("max_m", "upper corner", {high.x(), high.y(), high.z()}, 3);
 }

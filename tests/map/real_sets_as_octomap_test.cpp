@@ -32,9 +32,8 @@ TEST(SameAsOctoMap, ForACorridorOfThreeScans) {
 }
 
 TEST(SameAsOctoMap, ForTheBunny) {
-  // Each point has an origin of its own here: liboctomap's sets, one origin after the other.
   FACULA_REQUIRE_REAL_DATA(set, "range/stanford-bunny");
-  const ScanProject project = read_scan_project(set / "data/bun000.ply");
+  const ScanProject project = read_scan_project(set / "data/bun000.ply.xz");
   PointCloud cloud = project.scans.front().cloud;
   cloud.sensor_origin.assign(cloud.size(), {0, 0.1F, 0.5F});
   const OccupancyOptions options{.resolution = 0.002};
