@@ -4,6 +4,8 @@
 #include <facula/apps/report/plot_axes.hpp>
 #include <facula/tests/support/matchers.hpp>
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace facula {
@@ -113,6 +115,21 @@ TEST(MapTopView, CutsTheCeilingOff) {
   const Image8 picture = map_top_view(floor_with_block(), {}, 0.5);
   EXPECT_EQ(brightness(cell_color(picture, layout, 0, 19)), 3 * 255);
   EXPECT_LT(brightness(cell_color(picture, layout, 19, 0)), 3 * 255);
+}
+
+TEST(MapTopView, ColoursAHeightMapAndLeavesGapsWhite) {
+  HeightMap heights{.rows = 10, .cols = 20, .resolution = 0.1, .origin = {0, 0}, .top = {}};
+  for (int i = 0; i < 200; ++i) heights.top.push_back(i % 20 < 10 ? 0.0F : 1.0F);
+  heights.top[0] = std::nanf("");
+  const Image8 picture = map_top_view(heights);
+  const GridLayout layout = grid_layout(10, 20, {.least = 460, .most = 1100, .square_cells = true});
+  EXPECT_EQ(brightness(cell_color(picture, layout, 0, 0)), 3 * 255);
+  const Color low = cell_color(picture, layout, 5, 3);
+  const Color high = cell_color(picture, layout, 5, 15);
+  EXPECT_EQ(low, color_at(ColorMap::kViridis, 0));
+  EXPECT_EQ(high, color_at(ColorMap::kViridis, 1));
+  heights.top.pop_back();
+  EXPECT_NE(error_of([&] { map_top_view(heights); }).find("10 x 20"), std::string::npos);
 }
 
 }  // namespace
