@@ -208,6 +208,7 @@ void FrontierOptions::check() const {
   require(std::isfinite(min_volume) && min_volume >= 0,
           "FrontierOptions: expected min_volume of 0 m^3 or more, got ",
           min_volume);
+  require(count >= 1, "FrontierOptions: expected count of 1 suggestion or more, got 0");
   require(most_rays >= 100, "FrontierOptions: expected most_rays of 100 or more, got ", most_rays);
 }
 

@@ -92,7 +92,7 @@ void report_frontiers(const Frontiers& frontiers, Figures& figures) {
 }
 
 Image8 frontier_picture(const OccupancyMap& map, const Floor& floor, const Frontiers& frontiers) {
-  double height = floor.top + map.resolution();
+  double height = floor.top + std::max(1.0, map.resolution());  // where there are no places
   std::vector<RigidTransform> marks;
   for (const ScanSuggestion& suggestion : frontiers.suggestions) {
     height = std::max(height, suggestion.position.z());
