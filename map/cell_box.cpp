@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/map/cell_box.hpp>
+#include <facula/map/place_text.hpp>
 
 #include <algorithm>
 
@@ -37,11 +38,11 @@ CellBox cell_box(const MapBox& box, double resolution) {
   require(low && high && ordered,
           "expected a box whose lower corner is not above its upper one, both within ",
           kCentreKey,
-          " cells of the origin, got (",
-          box.min.transpose(),
-          ") m to (",
-          box.max.transpose(),
-          ") m at a cell of ",
+          " cells of the origin, got ",
+          place_text(box.min),
+          " m to ",
+          place_text(box.max),
+          " m at a cell of ",
           1000 * resolution,
           " mm; give another box");
   return {*low, *high};

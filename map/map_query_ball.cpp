@@ -2,6 +2,7 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/map/brick_box.hpp>
 #include <facula/map/map_query.hpp>
+#include <facula/map/place_text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -114,7 +115,8 @@ std::optional<NearCell> MapQuery::nearest_obstacle(const Eigen::Vector3d& x,
   require(std::isfinite(radius) && radius >= 0,
           "expected a ball's radius of 0 m or more, got ",
           radius);
-  require(x.allFinite(), "expected a ball about a finite point, got (", x.transpose(), ") m");
+  // Not require(): it would write its sentence for every ball.
+  if (!x.allFinite()) fail("expected a ball about a finite point, got ", place_text(x), " m");
   // Balls of growing size: what the first one that finds anything finds is the nearest.
   for (double size = kBrickEdge / 2 * resolution_; size < radius; size *= 2) {
     const auto found = nearest_within(x, size, unknown);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
 #include <facula/map/map_query.hpp>
+#include <facula/map/place_text.hpp>
 #include <facula/map/ray_walk.hpp>
 
 #include <array>
@@ -75,12 +76,11 @@ double centre_distance_squared(const CellKey& cell,
 void require_ray(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) {
   // Lengths whose square is no float any more have no direction either.
   const double length = ray_length(direction);
-  require(origin.allFinite() && std::isfinite(length) && length > 0,
-          "expected a ray with a finite origin and a direction that is not 0, got (",
-          origin.transpose(),
-          ") m and (",
-          direction.transpose(),
-          ")");
+  if (origin.allFinite() && std::isfinite(length) && length > 0) return;
+  fail("expected a ray with a finite origin and a direction that is not 0, got ",
+       place_text(origin),
+       " m and ",
+       place_text(direction));
 }
 
 }  // namespace
@@ -97,12 +97,13 @@ RayHit MapQuery::cast_ray(const Eigen::Vector3f& origin,
   options.check();
   require_ray(origin, direction);
   const auto first = cell_of(origin.cast<double>(), resolution_);
-  require(first.has_value(),
-          "expected a ray's origin within ",
-          kCentreKey,
-          " cells of the map's origin, got (",
-          origin.transpose(),
-          ") m");
+  if (!first) {
+    fail("expected a ray's origin within ",
+         kCentreKey,
+         " cells of the map's origin, got ",
+         place_text(origin),
+         " m");
+  }
   const bool passes_unknown = options.unknown == UnknownCells::kFree;
   CastWalk walk(origin, direction, *first, resolution_);
   const auto hit = [&](RayHit::End end) {

@@ -19,8 +19,9 @@ struct PathPlanOptions {
   std::size_t max_tries = 100000;  ///< give up after so many random tries [1]
   std::size_t more_tries = 2000;   ///< seek further paths until so many were made in all [1]
   double max_clearance = 2;        ///< larger clearances are given as this [m], above 0
-  std::size_t max_memory = std::size_t{4} << 30;  ///< of the distance field [bytes]
-  int num_threads = 0;                            ///< 0 = all cores [1]
+  /// Of the distance field; the search may take half as much again [bytes].
+  std::size_t max_memory = std::size_t{4} << 30;
+  int num_threads = 0;  ///< 0 = all cores [1]
 
   /// Throws Error naming the field, its value and its bound.
   void check() const;

@@ -3,6 +3,7 @@
 #include <facula/acquire/core/random.hpp>
 #include <facula/map/clearance.hpp>
 #include <facula/map/path_plan.hpp>
+#include <facula/map/place_text.hpp>
 #include <facula/map/reachable_cells.hpp>
 #include <facula/map/short_ways.hpp>
 
@@ -175,29 +176,29 @@ void require_place(const char* name, const Eigen::Vector3d& x, const Task& task)
   require(x.allFinite() && task.known.contains(x),
           "expected the ",
           name,
-          " within the map, which is known from (",
-          task.known.min().transpose(),
-          ") m to (",
-          task.known.max().transpose(),
-          ") m, got (",
-          x.transpose(),
-          ") m; give a place in between");
+          " within the map, which is known from ",
+          place_text(task.known.min()),
+          " m to ",
+          place_text(task.known.max()),
+          " m, got ",
+          place_text(x),
+          " m; give a place in between");
   const double needed = task.asked_radius();
   const double clearance = task.clearance->exact(x, needed);
   require(clearance > 0,
           "expected the ",
           name,
-          " in free space, got (",
-          x.transpose(),
-          ") m inside an obstacle (clearance 0 m); give another place");
+          " in free space, got ",
+          place_text(x),
+          " m inside an obstacle (clearance 0 m); give another place");
   require(clearance >= needed,
           "expected the ",
           name,
           " at least ",
           needed,
-          " m (the radius and a sixteenth of a cell) from obstacles, but (",
-          x.transpose(),
-          ") m has a clearance of ",
+          " m (the radius and a sixteenth of a cell) from obstacles, but ",
+          place_text(x),
+          " m has a clearance of ",
           clearance,
           " m; give another place or a smaller radius");
 }
@@ -209,14 +210,14 @@ std::vector<PathSample> samples_of(const std::vector<Eigen::Vector3d>& corners,
   std::vector<PathSample> samples;
   const auto add = [&](const Eigen::Vector3d& x) {
     samples.push_back({x, task.clearance->exact(x, std::max(max_clearance, task.radius))});
-    require(samples.back().clearance >= task.radius,
-            "expected a path that keeps ",
-            task.radius,
-            " m from obstacles, but the one found comes as near as ",
-            samples.back().clearance,
-            " m at (",
-            x.transpose(),
-            ") m: a fault of the planner, please report it");
+    if (samples.back().clearance >= task.radius) return;
+    fail("expected a path that keeps ",
+         task.radius,
+         " m from obstacles, but the one found comes as near as ",
+         samples.back().clearance,
+         " m at ",
+         place_text(x),
+         " m: a fault of the planner, please report it");
   };
   add(corners.front());
   const double spacing = task.clearance->query().resolution() / 2;
@@ -317,11 +318,11 @@ PathPlan plan_path(const OccupancyMap& map,
                    const PathPlanOptions& options) {
   options.check();
   require(from.allFinite() && to.allFinite(),
-          "expected a start and a goal of finite numbers, got (",
-          from.transpose(),
-          ") m and (",
-          to.transpose(),
-          ") m");
+          "expected a start and a goal of finite numbers, got ",
+          place_text(from),
+          " m and ",
+          place_text(to),
+          " m");
   require(!options.flat || from.z() == to.z(),
           "expected a start and a goal of the same height for a flat path, got ",
           from.z(),

@@ -103,6 +103,8 @@ std::vector<CellKey> cells_of_short_ways(const Clearance& clearance,
                                          const CellBox& box,
                                          const std::array<CellKey, 2>& ends,
                                          const ShortWaysOptions& options) {
+  // Places are counted in 32 bits.
+  if (box.cells() > std::numeric_limits<std::uint32_t>::max() / 2) return {};
   StepSearch search(clearance, box, options);
   for (const CellKey& end : ends) search.open_around(clearance, box, end, options.radius);
   const std::size_t goal = search.box().index(ends[1]);

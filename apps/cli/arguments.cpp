@@ -29,9 +29,13 @@ double parsed_number(const std::string& name, const std::string& word, Unit unit
 }
 
 Eigen::Vector3d parsed_vector(const std::string& name, const Words& words, Unit unit) {
-  return {parsed_number(name, words.at(0), unit),
-          parsed_number(name, words.at(1), unit),
-          parsed_number(name, words.at(2), unit)};
+  if (words.size() != 3) {
+    fail_usage(
+        name, ": expected three numbers, got ", words.size(), "; write for instance 1 2 0.5");
+  }
+  return {parsed_number(name, words[0], unit),
+          parsed_number(name, words[1], unit),
+          parsed_number(name, words[2], unit)};
 }
 
 long long parsed_whole(const std::string& name, const std::string& word, long long largest) {
