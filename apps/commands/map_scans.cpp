@@ -41,17 +41,29 @@ struct Changes {
   std::size_t bricks = 0;
 };
 
-void update_scan(ScanMap& map, const ScanRecord& record, const ScanCells& cells, Changes& changes) {
-  const auto kept = std::find_if(map.scans().begin(), map.scans().end(), [&](const KeptScan& scan) {
-    return scan.record.name == record.name;
+/// What a scan puts into a map.
+struct ScanParts {
+  ScanRecord record;
+  ScanCells cells;
+  std::vector<ColorBrick> colors;
+};
+
+bool is_same(const KeptScan& kept, const ScanParts& scan) {
+  return unpack(kept.cells).bricks == scan.cells.bricks &&
+         unpack_colors(kept.colors) == scan.colors;
+}
+
+void update_scan(ScanMap& map, const ScanParts& scan, Changes& changes) {
+  const auto kept = std::find_if(map.scans().begin(), map.scans().end(), [&](const KeptScan& one) {
+    return one.record.name == scan.record.name;
   });
   if (kept == map.scans().end()) {
-    map.add(record, cells);
+    map.add(scan.record, scan.cells, scan.colors);
     ++changes.added;
-  } else if (unpack(kept->cells).bricks == cells.bricks) {
+  } else if (is_same(*kept, scan)) {
     ++changes.unchanged;
   } else {
-    changes.bricks += map.replace(record, cells).bricks;
+    changes.bricks += map.replace(scan.record, scan.cells, scan.colors).bricks;
     ++changes.replaced;
   }
 }
@@ -99,9 +111,12 @@ void update_map(ScanMap& map, const PosedScans& scans, Session& session) {
   std::size_t done = 0;
   std::size_t skipped = 0;
   for (const PosedCloud& scan : scans.project.scans) {
-    const ScanCells cells = cells_of_scan(in_world(scan), cast);
-    skipped += cells.skipped;
-    update_scan(map, {names[done], scan.world_from_scan, scan.cloud.size(), cast}, cells, changes);
+    const PointCloud cloud = in_world(scan);
+    const ScanParts parts{.record = {names[done], scan.world_from_scan, cloud.size(), cast},
+                          .cells = cells_of_scan(cloud, cast),
+                          .colors = colors_of_scan(cloud, cast)};
+    skipped += parts.cells.skipped;
+    update_scan(map, parts, changes);
     progress(++done, scans.project.scans.size());
   }
   session.figures.count("skipped_points", "points skipped", skipped);
@@ -123,6 +138,7 @@ ScanMap read_scan_map(const std::filesystem::path& file, int num_threads) {
   options.num_threads = num_threads;
   OccupancyMap map(options);
   map.bricks() = std::move(content.map.bricks());
+  map.colors() = std::move(content.map.colors());
   return {std::move(map), std::move(content.scans)};
 }
 

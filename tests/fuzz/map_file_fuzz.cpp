@@ -16,11 +16,13 @@ namespace {
 
 using namespace facula;
 
-constexpr std::array<MapBlockKind, 5> kKinds = {MapBlockKind::kOptions,
+constexpr std::array<MapBlockKind, 7> kKinds = {MapBlockKind::kOptions,
                                                 MapBlockKind::kBricks,
                                                 MapBlockKind::kScan,
                                                 MapBlockKind::kCells,
-                                                MapBlockKind::kEnd};
+                                                MapBlockKind::kEnd,
+                                                MapBlockKind::kColors,
+                                                MapBlockKind::kScanColors};
 
 std::string sealed(ByteView input) {
   std::ostringstream file;
@@ -44,7 +46,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const MapFile content = parse_map_file(bytes_of_text(file), "fuzz");
     std::size_t cells = content.map.statistics().free_cells;
-    for (const KeptScan& scan : content.scans) cells += unpack(scan.cells).bricks.size();
+    for (const KeptScan& scan : content.scans) {
+      cells += unpack(scan.cells).bricks.size() + unpack_colors(scan.colors).size();
+    }
     volatile std::size_t used = cells;
     static_cast<void>(used);
   } catch (const Error&) {
