@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/map/path_plan.hpp>
+#include <facula/tests/bench/bench_scene.hpp>
 #include <facula/tests/support/real_data.hpp>
 
 #include <string>
@@ -55,7 +56,7 @@ void geb079_room(benchmark::State& state) {
 }
 
 void seeds(benchmark::internal::Benchmark* bench) {
-  bench->DenseRange(1, 5)
+  bench->DenseRange(1, small_run() ? 1 : 5)
       ->ArgName("seed")
       ->Unit(benchmark::kMillisecond)
       ->MeasureProcessCPUTime()
