@@ -11,7 +11,7 @@
 namespace facula {
 namespace {
 
-constexpr int kMostSlack = 100;
+constexpr int kMostSlack = 10;
 constexpr std::size_t kKinds = 3;
 
 /// Changed cells of one kind, in the order of the octree.

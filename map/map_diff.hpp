@@ -12,7 +12,7 @@
 namespace facula {
 
 struct MapDiffOptions {
-  int slack_cells = 1;  ///< what was as close as this, per axis, has not changed [1], 0 to 100
+  int slack_cells = 1;        ///< what was as close as this, per axis, has not changed [1], 0 to 10
   std::size_t min_cells = 1;  ///< smaller clusters are left out [1]
   bool newly_seen = false;    ///< also what is occupied now and was unknown
   int num_threads = 0;        ///< 0 = all cores [1]

@@ -117,7 +117,7 @@ MapStatistics OccupancyMap::statistics() const {
     });
   });
   statistics.nodes = PrunedOctree(bricks_).size();
-  statistics.memory = bricks_.memory_usage();
+  statistics.memory = bricks_.memory_usage() + colors_.memory_usage();
   if (statistics.nodes == 0) return statistics;
   const Eigen::Vector3d half = Eigen::Vector3d::Constant(options_.resolution / 2);
   statistics.min = centre_of(low, options_.resolution) - half;

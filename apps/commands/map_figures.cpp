@@ -15,6 +15,11 @@ void report_map(const OccupancyMap& map, Figures& figures) {
   figures.number("resolution_mm", "cell", 1000 * map.resolution(), 1);
   figures.count("free_cells", "free cells", statistics.free_cells);
   figures.count("occupied_cells", "occupied cells", statistics.occupied_cells);
+  if (!map.colors().empty()) {
+    std::size_t colored = 0;
+    for (const ColorBrick& brick : map.colors().bricks()) colored += brick.sums.size();
+    figures.count("colored_cells", "coloured cells", colored);
+  }
   figures.count("nodes", "nodes of the tree", statistics.nodes);
   figures.count("memory", "memory, bytes", statistics.memory);
   figures.numbers("min_m", "lower corner", {low.x(), low.y(), low.z()}, 3);

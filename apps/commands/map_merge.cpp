@@ -58,7 +58,7 @@ Command map_merge_command() {
               "Adds the log-odds of two maps, cell by cell, the second one placed by a pose. At "
               "shifts by whole cells (and turns by right angles) every cell meets one cell; "
               "otherwise the second map is resampled, which moves its surfaces by up to half a "
-              "cell.",
+              "cell. A merged map keeps no scans.",
           .examples = {"facula simulate data/scenes/flat_wall.toml --rig "
                        "data/rigs/head_fs1500.toml --step-deg 24 --out wall",
                        "facula extract wall --out wall.pcd",
