@@ -70,8 +70,9 @@ void run(const Arguments& arguments,
   ranks.together([&] {
     parse_arguments(arguments, words);
     a.project.options.num_threads = threads_of_rank(a.threads, ranks);
+    if (!ranks.first()) return;  // what all would find wrong the first rank says
     a.project.options.check();
-    if (ranks.first() && !a.json.empty() && a.json != "-") check_output(a.json);
+    if (!a.json.empty() && a.json != "-") check_output(a.json);
   });
   figures = map_project(a.project, ranks);
   ranks.together([&] {
@@ -121,9 +122,17 @@ int run_ranks(const std::vector<std::string>& words) {
     return kOk;
   } catch (const StepFailed& failure) {
     return failure.reason() ? complain_here(failure.reason(), ranks) : kFailed;
-  } catch (...) {
+  } catch (...) {  // the others know nothing of it and would wait for ever
     complain_here(std::current_exception(), ranks);
     Ranks::abort();
+  }
+}
+
+int run_program(const std::vector<std::string>& words) {
+  try {
+    return run_ranks(words);
+  } catch (...) {
+    return complain(kProgram, std::current_exception());
   }
 }
 
@@ -131,5 +140,5 @@ int run_ranks(const std::vector<std::string>& words) {
 }  // namespace facula
 
 int main(int argc, char** argv) {
-  return facula::run_ranks(std::vector<std::string>(argv + 1, argv + argc));
+  return facula::run_program(std::vector<std::string>(argv + 1, argv + argc));
 }

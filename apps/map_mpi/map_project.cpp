@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 namespace facula {
 namespace {
@@ -41,6 +42,18 @@ std::string broadcast(const std::string& text, const Ranks& ranks) {
   const std::vector<Bytes> parts(ranks.size(), ranks.first() ? bytes : Bytes());
   const Bytes received = ranks.exchange(parts)[0];
   return {received.begin(), received.end()};
+}
+
+/// The scans, on all ranks; what all would find wrong the first one says.
+std::vector<ListedScan> list_on_all(const std::vector<std::filesystem::path>& paths,
+                                    const Ranks& ranks) {
+  std::vector<ListedScan> scans;
+  for (const bool first : {true, false}) {
+    ranks.together([&] {
+      if (ranks.first() == first) scans = list_posed_scans(paths);
+    });
+  }
+  return scans;
 }
 
 /// Makes the folder on the first rank and holds that the others see it.
@@ -99,8 +112,7 @@ void write_index(const std::filesystem::path& folder,
 }  // namespace
 
 std::vector<RankFigures> map_project(const MapProject& project, const Ranks& ranks) {
-  std::vector<ListedScan> scans;
-  ranks.together([&] { scans = list_posed_scans(project.scans); });
+  const std::vector<ListedScan> scans = list_on_all(project.scans, ranks);
   std::optional<OutputFolder> folder;
   const std::filesystem::path temporary = open_folder(project, ranks, folder);
   RankMap map(ranks, project.options);

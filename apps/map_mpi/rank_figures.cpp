@@ -113,6 +113,8 @@ void report_ranks(const std::vector<RankFigures>& ranks, Figures& figures) {
   report_sums(ranks, figures);
   report_most(ranks, figures);
   figures.table(table_of(ranks));
+  if (sum_of(ranks, &RankFigures::coloured) == 0) return;
+  figures.note("The colours of scans are left out; 'facula map' keeps them.");
 }
 
 std::uint64_t peak_memory() {

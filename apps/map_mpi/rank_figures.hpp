@@ -12,6 +12,7 @@ namespace facula {
 struct RankFigures {
   std::uint64_t scans = 0;           ///< cast [1]
   std::uint64_t points = 0;          ///< read [1]
+  std::uint64_t coloured = 0;        ///< scans with colours, which are left out [1]
   std::uint64_t mixed_removed = 0;   ///< points between two surfaces [1]
   std::uint64_t rays = 0;            ///< cast, those skipped too [1]
   std::uint64_t skipped = 0;         ///< points not finite or outside space [1]

@@ -39,6 +39,7 @@ PointCloud open_scan(const ListedScan& listed, RankFigures& figures) {
   ++figures.scans;
   figures.points += scan.points_read;
   figures.mixed_removed += scan.mixed_removed;
+  if (!scan.posed.cloud.colors.empty()) ++figures.coloured;
   return in_world(scan.posed);
 }
 

@@ -180,6 +180,9 @@ TEST_F(MapMpi, SaysOnceWhatIsWrongWithTheCommandLine) {
   EXPECT_EQ(wrong.code, 2);
   ASSERT_EQ(complaints(wrong).size(), 1U) << wrong.err;
   EXPECT_NE(complaints(wrong)[0].find("--resolution-mm"), std::string::npos) << wrong.err;
+  const ProgramRun absent = on_ranks(2, "poses.toml --out map");
+  EXPECT_EQ(absent.code, 1);
+  EXPECT_EQ(complaints(absent).size(), 1U) << absent.err;
   const ProgramRun help = run("facula-map-mpi --help");
   EXPECT_EQ(help.code, 0);
   EXPECT_NE(help.out.find("Usage: facula-map-mpi SCANS... --out PATH"), std::string::npos);
