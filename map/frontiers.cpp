@@ -90,9 +90,11 @@ struct Scene {
     return volume(seen(position, along, crossed_off).size());
   }
 
-  /// What is seen from a place counts no more.
-  void cross_off(const Eigen::Vector3d& position) {
-    for (const SeenCell& cell : seen_from(position)) crossed_off[cell.cell] = true;
+  /// What is seen from a place counts no more; returns its volume [m^3].
+  double cross_off(const Eigen::Vector3d& position) {
+    const std::vector<SeenCell> cells = seen_from(position);
+    for (const SeenCell& cell : cells) crossed_off[cell.cell] = true;
+    return volume(cells.size());
   }
 
   double volume(std::size_t cells) const {
@@ -111,8 +113,6 @@ ScanSuggestion describe(const Scene& scene,
   ScanSuggestion suggestion;
   suggestion.position = position;
   suggestion.volume = scene.volume(seen.size());
-  const std::vector<bool> nothing(scene.crossed_off.size(), false);
-  suggestion.volume_alone = scene.volume(scene.seen(position, scene.directions, nothing).size());
   const auto most = std::max_element(through.begin(), through.end());
   if (most == through.end() || *most == 0) return suggestion;
   suggestion.region = scene.frontiers.regions[static_cast<std::size_t>(most - through.begin())];
@@ -154,8 +154,22 @@ std::size_t climb(const Scene& scene, const StandArea& area, std::size_t place, 
   return place;
 }
 
-/// Takes the best place, crosses off what it sees, and so on. Volumes only shrink, so that a place
-/// whose volume was just taken anew and still is the largest is the best one.
+/// The index of the largest volume, each of which may have shrunk since it was taken: volumes only
+/// shrink, so that one that was just taken anew and still is the largest is the largest.
+std::size_t largest(const Scene& scene,
+                    const StandArea& area,
+                    const std::vector<std::size_t>& places,
+                    const Directions& along,
+                    std::vector<double>& volumes) {
+  for (;;) {
+    const auto best = std::max_element(volumes.begin(), volumes.end());
+    const auto i = static_cast<std::size_t>(best - volumes.begin());
+    const double volume = scene.volume_from(area.position(places[i]), along);
+    if (volume >= std::exchange(*best, volume)) return i;
+  }
+}
+
+/// Takes the best place, crosses off what it sees, and so on.
 std::vector<std::size_t> choose(Scene scene,
                                 const StandArea& area,
                                 const FrontierOptions& options) {
@@ -163,14 +177,11 @@ std::vector<std::size_t> choose(Scene scene,
       volumes_from(scene, area, area.lattice, scene.few, options.num_threads);
   std::vector<std::size_t> places;
   while (places.size() < options.count) {
-    const auto best = std::max_element(volumes.begin(), volumes.end());
-    if (*best <= 0) break;
-    const std::size_t place = area.lattice[static_cast<std::size_t>(best - volumes.begin())];
-    const double volume = scene.volume_from(area.position(place), scene.few);
-    const bool still_best = volume == std::exchange(*best, volume);
-    if (!still_best) continue;
-    places.push_back(climb(scene, area, place, options.num_threads));
-    scene.cross_off(area.position(places.back()));
+    const std::size_t best = largest(scene, area, area.lattice, scene.few, volumes);
+    const std::size_t place = climb(scene, area, area.lattice[best], options.num_threads);
+    const double seen = scene.cross_off(area.position(place));
+    if (seen == 0 || seen < options.min_volume) break;
+    places.push_back(place);
   }
   return places;
 }
@@ -179,18 +190,20 @@ std::vector<std::size_t> choose(Scene scene,
 /// may have made a later one better.
 std::vector<ScanSuggestion> ranked(Scene& scene,
                                    const StandArea& area,
-                                   std::vector<std::size_t> places,
+                                   const std::vector<std::size_t>& places,
                                    const FrontierOptions& options) {
+  const std::vector<double> alone =
+      volumes_from(scene, area, places, scene.directions, options.num_threads);
+  std::vector<double> volumes = alone;
   std::vector<ScanSuggestion> suggestions;
-  while (!places.empty()) {
-    const std::vector<double> volumes =
-        volumes_from(scene, area, places, scene.directions, options.num_threads);
-    const auto best = std::max_element(volumes.begin(), volumes.end()) - volumes.begin();
-    if (volumes[static_cast<std::size_t>(best)] < options.min_volume) break;
-    const Eigen::Vector3d position = area.position(places[static_cast<std::size_t>(best)]);
+  while (suggestions.size() < places.size()) {
+    const std::size_t best = largest(scene, area, places, scene.directions, volumes);
+    if (volumes[best] < options.min_volume) break;
+    const Eigen::Vector3d position = area.position(places[best]);
     suggestions.push_back(describe(scene, position, scene.seen_from(position)));
+    suggestions.back().volume_alone = alone[best];
     scene.cross_off(position);
-    places.erase(places.begin() + best);
+    volumes[best] = -1;
   }
   return suggestions;
 }
@@ -208,7 +221,9 @@ void FrontierOptions::check() const {
   require(std::isfinite(min_volume) && min_volume >= 0,
           "FrontierOptions: expected min_volume of 0 m^3 or more, got ",
           min_volume);
-  require(count >= 1, "FrontierOptions: expected count of 1 suggestion or more, got 0");
+  require(count >= 1 && count <= 1000,
+          "FrontierOptions: expected a count of 1 to 1000 suggestions, got ",
+          count);
   require(most_rays >= 100, "FrontierOptions: expected most_rays of 100 or more, got ", most_rays);
 }
 

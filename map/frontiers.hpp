@@ -21,7 +21,7 @@ struct FrontierOptions {
   double margin = 2.0;            ///< unknown space around the map that counts [m], 0 or more
   double region_length = 2.0;     ///< longer frontiers are cut into regions of at most this [m]
   double min_volume = 0.1;        ///< suggestions that would see less are left out [m^3]
-  std::size_t count = 5;          ///< suggestions at most [1]
+  std::size_t count = 5;          ///< suggestions at most, 1 to 1000 [1]
   std::size_t most_rays = 65536;  ///< directions per standpoint at most, at least 100 [1]
   int num_threads = 0;            ///< 0 = all cores [1]
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace facula {
 namespace {
@@ -24,18 +26,20 @@ FigureTable suggestion_table(const Frontiers& frontiers) {
                                 {"region_z_m", "z", 2},
                                 {"region_area_m2", "area", 1}},
                     .rows = {}};
-  long long rank = 0;
   for (const ScanSuggestion& s : frontiers.suggestions) {
-    table.rows.push_back({++rank,
-                          s.position.x(),
-                          s.position.y(),
-                          s.position.z(),
-                          s.volume,
-                          s.volume_alone,
-                          s.region.centre.x(),
-                          s.region.centre.y(),
-                          s.region.centre.z(),
-                          s.region.area});
+    std::vector<FigureValue> row = {static_cast<long long>(table.rows.size() + 1)};
+    for (const double value : {s.position.x(),
+                               s.position.y(),
+                               s.position.z(),
+                               s.volume,
+                               s.volume_alone,
+                               s.region.centre.x(),
+                               s.region.centre.y(),
+                               s.region.centre.z(),
+                               s.region.area}) {
+      row.emplace_back(value);
+    }
+    table.rows.push_back(std::move(row));
   }
   return table;
 }

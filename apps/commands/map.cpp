@@ -167,7 +167,8 @@ Command map_command() {
            "facula extract room --out room.pcd",
            "facula map room.pcd --resolution-mm 100 --verify --out room.bt --out room.ot --grid "
            "room.yaml --min-height-m 0.1 --max-height-m 1.5",
-           "facula map room.bt --above-floor --grid raw.yaml --grid-mode raw --inflate-m 0.2 "
+           "facula map room.bt --above-floor --floor-m 0 --grid raw.yaml --grid-mode raw "
+           "--inflate-m 0.2 "
            "--height-map heights.tif --frontiers next.csv --frontiers next.png --scanner-range-m 5 "
            "--scanner-height-m 1.1",
            "facula map room.pcd --resolution-mm 100 --out room.fmap",

@@ -318,6 +318,7 @@ TEST(Frontiers, SayWhatIsMissing) {
             std::string::npos);
   EXPECT_NE(with({.range = 0}).find("range"), std::string::npos);
   EXPECT_NE(with({.count = 0}).find("count"), std::string::npos);
+  EXPECT_NE(with({.count = 1001}).find("1001"), std::string::npos);
   EXPECT_NE(with({.most_rays = 3}).find("most_rays"), std::string::npos);
   EXPECT_NE(error_of([&] { find_frontiers(OccupancyMap{}, floor, {}); }).find("empty"),
             std::string::npos);
