@@ -100,7 +100,8 @@ check_folders() {
 }
 
 # Whether a CMakeLists.txt in a folder above the file lists it by its path from there. Tests and
-# benchmarks are also listed by their bare name, room/name for name_test.cpp, name for bench_name.cpp.
+# benchmarks are also listed by their bare name, room/name for name_test.cpp, name for bench_name.cpp
+# and name_fuzz.cpp.
 is_built() {
   local file=$1 folder=$1 name
   while [[ $folder == */* ]]; do
@@ -111,6 +112,7 @@ is_built() {
     [[ $file == tests/* ]] || continue
     name=$(basename "${file%.cpp}")
     name=${name%_test}
+    name=${name%_fuzz}
     grep -qE "(^|[[:space:](/])${name#bench_}([[:space:])]|\$)" "$folder/CMakeLists.txt" && return 0
   done
   return 1
