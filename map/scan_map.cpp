@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/parallel.hpp>
 #include <facula/map/scan_map.hpp>
 
 #include <algorithm>
@@ -21,18 +22,25 @@ void sort_unique(std::vector<std::uint64_t>& codes) {
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
 }
 
+/// Scans that are opened side by side.
+constexpr std::size_t kBatch = 32;
+
+/// What a scan says about some bricks, and the blocks that were opened for it.
+struct Touched {
+  std::vector<ScanBrick> bricks;
+  std::size_t blocks = 0;
+};
+
 /// The bricks of a scan that are among the ascending `codes`; opens only blocks that may hold one.
-std::vector<ScanBrick> bricks_among(const PackedCells& cells,
-                                    const std::vector<std::uint64_t>& codes,
-                                    Rebuild& rebuild) {
-  std::vector<ScanBrick> result;
+Touched bricks_among(const PackedCells& cells, const std::vector<std::uint64_t>& codes) {
+  Touched result;
   for (const PackedBricks& block : cells.blocks) {
     auto code = std::lower_bound(codes.begin(), codes.end(), block.first);
     if (code == codes.end() || *code > block.last) continue;
-    ++rebuild.blocks;
+    ++result.blocks;
     for (const ScanBrick& brick : unpack(block)) {
       while (code != codes.end() && *code < brick.code) ++code;
-      if (code != codes.end() && *code == brick.code) result.push_back(brick);
+      if (code != codes.end() && *code == brick.code) result.bricks.push_back(brick);
     }
   }
   return result;
@@ -134,8 +142,19 @@ Rebuild ScanMap::rebuild(std::vector<std::uint64_t> codes) {
   Rebuild result{.bricks = codes.size()};
   const OccupancyOptions& options = map_.options();
   LogOddsMap fresh;
-  for (const KeptScan& scan : scans_) {
-    fresh.apply(bricks_among(scan.cells, codes, result), options.model(), options.num_threads);
+  std::vector<Touched> batch;
+  for (std::size_t first = 0; first < scans_.size(); first += kBatch) {
+    batch.assign(std::min(kBatch, scans_.size() - first), {});
+    const auto open = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        batch[i] = bricks_among(scans_[first + i].cells, codes);
+      }
+    };
+    parallel_for(batch.size(), open, {.num_threads = options.num_threads, .chunk = 1});
+    for (const Touched& scan : batch) {
+      fresh.apply(scan.bricks, options.model(), options.num_threads);
+      result.blocks += scan.blocks;
+    }
   }
   for (const std::uint64_t code : codes) {
     LogOddsBrick& brick = fresh.find_or_add(code);
