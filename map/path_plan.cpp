@@ -123,16 +123,20 @@ void require_ends(const Eigen::Vector3d& from, const Eigen::Vector3d& to, bool f
           " m");
 }
 
-/// Says with certainty where there is no way, tries along short ways where there are such.
+/// The straight line where it is free. Says with certainty where there is no way; tries are made
+/// along short ways where there are such.
 FoundPath found_path(PathTask task,
                      const std::array<Eigen::Vector3d, 2>& ends,
                      const PathPlanOptions& options) {
   const Clearance& clearance = *task.clearance;
+  const double radius = task.asked_radius();
+  if (clearance.holds_along(ends[0], ends[1], radius)) {
+    return {.corners = {ends[0], ends[1]}, .tries = 0, .paths = 1};
+  }
   const double cell = clearance.query().resolution();
   const std::array<CellKey, 2> cells = {cell_of(ends[0], cell).value(),
                                         cell_of(ends[1], cell).value()};
   const CellBox box = roaming_box(clearance.query().known().value(), cells[0], options.flat);
-  const double radius = task.asked_radius();
   const ReachableCells reachable(clearance, box, cells[0], radius, options.num_threads);
   require(reachable.contains(cells[1]),
           "expected a way from start to goal for a ball of ",

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace facula {
@@ -80,9 +82,52 @@ class StepSearch {
     return steps;
   }
 
-  const CellBox& box() const { return box_; }
+  struct Reached {
+    std::vector<Steps> steps;  // from the start, for all cells of ways that are short enough
+    std::size_t longest = 0;   // such a way
+  };
+
+  /// Steps between the ends; none when they do not hang together. Cells from where even the
+  /// straight way makes a longer one are left out, with a bound that grows until the goal is
+  /// reached.
+  std::optional<Reached> steps_to(const std::array<CellKey, 2>& ends, double detour) const {
+    const auto with_detour = [&](std::size_t steps) {
+      return steps + static_cast<std::size_t>(detour * static_cast<double>(steps));
+    };
+    const std::size_t goal = box_.index(ends[1]);
+    for (std::size_t bound = with_detour(steps_between(ends[0], ends[1]));;) {
+      bool pruned = false;
+      std::optional<std::size_t> longest;
+      auto steps = steps_from(ends[0], [&](std::size_t place, std::size_t step) {
+        if (place == goal) longest = with_detour(step);
+        const std::size_t most = longest ? std::min(*longest, bound) : bound;
+        const bool fine = step + steps_between(cell_at(place), ends[1]) <= most;
+        pruned = pruned || !fine;
+        return fine;
+      });
+      if (goal == box_.index(ends[0])) longest = 0;
+      if (longest && *longest <= bound) return Reached{std::move(steps), *longest};
+      if (!longest && (!pruned || bound >= kNotReached)) return std::nullopt;
+      bound = longest ? *longest : 2 * bound + 1;
+    }
+  }
+
+  CellKey cell_at(std::size_t place) const {
+    const auto nx = static_cast<std::uint32_t>(box_.size(0));
+    const auto ny = static_cast<std::uint32_t>(box_.size(1));
+    const auto number = static_cast<std::uint32_t>(place);
+    return {box_.low[0] + static_cast<int>(number % nx),
+            box_.low[1] + static_cast<int>(number / nx % ny),
+            box_.low[2] + static_cast<int>(number / nx / ny)};
+  }
 
  private:
+  /// Where nothing is in the way.
+  static std::size_t steps_between(const CellKey& a, const CellKey& b) {
+    return static_cast<std::size_t>(std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) +
+                                    std::abs(a[2] - b[2]));
+  }
+
   /// With a layer around it, outside of which no step can lead; keys may then lie outside of space.
   static CellBox grown_by_walls(const CellBox& box) {
     CellBox result = box;
@@ -107,25 +152,15 @@ std::vector<CellKey> cells_of_short_ways(const Clearance& clearance,
   if (box.cells() > std::numeric_limits<std::uint32_t>::max() / 2) return {};
   StepSearch search(clearance, box, options);
   for (const CellKey& end : ends) search.open_around(clearance, box, end, options.radius);
-  const std::size_t goal = search.box().index(ends[1]);
-  std::size_t longest = kNotReached;
-  const auto start_steps = search.steps_from(ends[0], [&](std::size_t place, std::size_t step) {
-    if (place == goal)
-      longest = step + static_cast<std::size_t>(options.detour * static_cast<double>(step));
-    return step <= longest;
-  });
-  if (start_steps[goal] == kNotReached) return {};
-  const auto goal_steps = search.steps_from(ends[1], [&](std::size_t place, std::size_t step) {
-    return start_steps[place] != kNotReached && start_steps[place] + step <= longest;
+  const auto from_start = search.steps_to(ends, options.detour);
+  if (!from_start) return {};
+  const auto from_goal = search.steps_from(ends[1], [&](std::size_t place, std::size_t step) {
+    return from_start->steps[place] != kNotReached &&
+           from_start->steps[place] + step <= from_start->longest;
   });
   std::vector<CellKey> cells;
-  const auto nx = static_cast<std::size_t>(search.box().size(0));
-  const auto ny = static_cast<std::size_t>(search.box().size(1));
-  for (std::size_t place = 0; place < goal_steps.size(); ++place) {
-    if (goal_steps[place] == kNotReached) continue;
-    cells.push_back({search.box().low[0] + static_cast<int>(place % nx),
-                     search.box().low[1] + static_cast<int>(place / nx % ny),
-                     search.box().low[2] + static_cast<int>(place / nx / ny)});
+  for (std::size_t place = 0; place < from_goal.size(); ++place) {
+    if (from_goal[place] != kNotReached) cells.push_back(search.cell_at(place));
   }
   return cells;
 }
