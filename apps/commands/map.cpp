@@ -142,9 +142,9 @@ void write_map(const std::filesystem::path& path, const MadeMap& made) {
 void run(const MapArguments& a, Session& session) {
   check(a);
   const MadeMap made = make_map(a, session);
-  for (const auto& path : a.out) write_map(path, made);
   report_map(made.map, session.figures);
-  write_map_outputs(made.map, a.outputs, session);
+  write_map_outputs(made.map, a.outputs, session);  // first: where they cannot be, nothing is left
+  for (const auto& path : a.out) write_map(path, made);
 }
 
 }  // namespace

@@ -81,7 +81,10 @@ TEST(MeshAdvancingFront, BearsBadPointsAndRefusesTooFew) {
   EXPECT_NE(error_of([] { mesh_advancing_front({}); }).find("at least 4"), std::string::npos);
   PointCloud spot;
   spot.points.assign(100, Eigen::Vector3f(1, 1, 1));
-  EXPECT_NE(error_of([&] { mesh_advancing_front(spot); }).find("no surface"), std::string::npos);
+  EXPECT_NE(error_of([&] { mesh_advancing_front(spot); }).find("has 1 that"), std::string::npos);
+  PointCloud line;
+  for (int i = 0; i < 100; ++i) line.points.emplace_back(0.01F * static_cast<float>(i), 1, 1);
+  EXPECT_NE(error_of([&] { mesh_advancing_front(line); }).find("no surface"), std::string::npos);
 }
 
 /// A wall at x = `x_of(row, col)` seen from an eye beside the origin.
