@@ -19,23 +19,25 @@ fi
 
 fresh=$(mktemp "$page.XXXXXX")
 trap 'rm -f "$fresh"' EXIT
-inside=
+section=   # the command whose table is being passed
+measured=  # not empty: that table was made anew, and the old lines go
 while IFS= read -r line || [[ -n $line ]]; do
   if [[ $line == '<!-- end -->' ]]; then
-    [[ -n $inside ]] || { echo "$page: an end without a beginning" >&2; exit 1; }
-    inside=
+    [[ -n $section ]] || { echo "$page: an end without a beginning" >&2; exit 1; }
+    section=
+    measured=
   fi
-  [[ -n $inside ]] || printf '%s\n' "$line" >>"$fresh"
+  [[ -n $measured ]] || printf '%s\n' "$line" >>"$fresh"
   if [[ $line =~ ^'<!-- measured: '(.*)' -->'$ ]]; then
-    command=${BASH_REMATCH[1]}
-    [[ -z $inside ]] || { echo "$page: '$command' begins before the end of the last" >&2; exit 1; }
-    [[ $command == *"$only"* ]] || continue
-    inside=$command
-    echo "measuring: $command" >&2
-    bash -c "set -euo pipefail; $command" </dev/null >>"$fresh"
+    [[ -z $section ]] || { echo "$page: a table begins before the end of '$section'" >&2; exit 1; }
+    section=${BASH_REMATCH[1]}
+    [[ $section == *"$only"* ]] || continue
+    measured=yes
+    echo "measuring: $section" >&2
+    bash -c "set -euo pipefail; $section" </dev/null >>"$fresh"
   fi
 done <"$page"
-[[ -z $inside ]] || { echo "$page: '$inside' has no end" >&2; exit 1; }
+[[ -z $section ]] || { echo "$page: '$section' has no end" >&2; exit 1; }
 chmod --reference="$page" "$fresh"
 sync "$fresh"
 mv "$fresh" "$page"
