@@ -15,7 +15,10 @@ struct Ray {
   CellKey cell;
   std::array<std::uint32_t, 3> origin;  // bit patterns, so that NaN equals itself
 
-  auto operator<=>(const Ray&) const = default;
+  bool operator==(const Ray&) const = default;
+  bool operator<(const Ray& other) const {
+    return std::tie(cell, origin) < std::tie(other.cell, other.origin);
+  }
 };
 
 }  // namespace

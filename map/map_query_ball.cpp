@@ -118,7 +118,7 @@ std::optional<NearCell> MapQuery::nearest_obstacle(const Eigen::Vector3d& x,
   // Not require(): it would write its sentence for every ball.
   if (!x.allFinite()) fail("expected a ball about a finite point, got ", place_text(x), " m");
   // Balls of growing size: what the first one that finds anything finds is the nearest.
-  for (double size = kBrickEdge / 2 * resolution_; size < radius; size *= 2) {
+  for (double size = 0.5 * kBrickEdge * resolution_; size < radius; size *= 2) {
     const auto found = nearest_within(x, size, unknown);
     if (found) return found;
     if (covers_space(x, size, resolution_)) return std::nullopt;

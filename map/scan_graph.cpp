@@ -92,7 +92,7 @@ class GraphParser {
   GraphPose take_pose() {
     const auto [x, y, z] = take_numbers<3>();
     const auto [qw, qx, qy, qz] = take_numbers<4>();
-    const GraphPose pose{{x, y, z}, {qw, qx, qy, qz}};
+    GraphPose pose{{x, y, z}, {qw, qx, qy, qz}};
     require(pose.translation.allFinite() && std::abs(pose.rotation.norm() - 1) <= kLengthSlack,
             "'",
             name_,

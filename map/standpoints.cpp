@@ -41,8 +41,9 @@ std::vector<std::size_t> largest_area(std::size_t cols, std::vector<bool> marked
       area.push_back(cell);
     };
     take(start);
-    for (std::size_t k = 0; k < area.size(); ++k) {
-      const std::size_t cell = area[k];
+    std::size_t next = 0;
+    while (next < area.size()) {  // take() adds to it
+      const std::size_t cell = area[next++];
       if (cell % cols != 0) take(cell - 1);
       if (cell % cols + 1 != cols) take(cell + 1);
       if (cell >= cols) take(cell - cols);
@@ -84,7 +85,8 @@ void StandpointOptions::check() const {
 Eigen::Vector3d StandArea::position(std::size_t cell) const {
   const auto width = static_cast<std::size_t>(cols);
   const auto x = static_cast<double>(cell % width);
-  const double y = rows - 1 - static_cast<double>(cell / width);
+  const std::size_t row = cell / width;
+  const double y = rows - 1 - static_cast<double>(row);
   return {origin.x() + (x + 0.5) * resolution, origin.y() + (y + 0.5) * resolution, height};
 }
 
