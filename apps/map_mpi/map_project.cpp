@@ -63,7 +63,7 @@ std::filesystem::path open_folder(const MapProject& project,
   ranks.together([&] {
     if (ranks.first()) folder.emplace(project.out, kBlockIndexName, project.overwrite);
   });
-  const std::filesystem::path path =
+  std::filesystem::path path =
       broadcast(folder ? std::filesystem::absolute(folder->temporary_path()).string() : "", ranks);
   ranks.together([&] {
     require(std::filesystem::is_directory(path),
@@ -120,7 +120,7 @@ std::vector<RankFigures> map_project(const MapProject& project, const Ranks& ran
   std::vector<BlockRecord> records;
   ranks.together([&] { records = map.write(temporary); });
   const std::vector<BlockRecord> blocks = gathered(records, ranks);
-  const std::vector<RankFigures> figures = gathered(std::vector{map.figures()}, ranks);
+  std::vector<RankFigures> figures = gathered(std::vector{map.figures()}, ranks);
   ranks.together([&] {
     if (!ranks.first()) return;
     check_totals(figures, project);

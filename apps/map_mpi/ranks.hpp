@@ -14,6 +14,7 @@ namespace facula {
 /// A step failed on some rank: thrown on all, so none is left waiting.
 class StepFailed : public std::exception {
  public:
+  // NOLINTNEXTLINE(bugprone-throw-keyword-missing): the pointer is kept, not thrown
   explicit StepFailed(std::exception_ptr reason) : reason_(std::move(reason)) {}
 
   /// What was thrown here; null where others failed and this rank did not.
