@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/disjoint_sets.hpp>
 #include <facula/map/brick_index.hpp>
 #include <facula/map/cell_clusters.hpp>
 
-#include <algorithm>
 #include <cstdint>
-#include <numeric>
 
 namespace facula {
 namespace {
@@ -16,36 +15,11 @@ std::uint64_t number_of(const CellKey& cell) {
   return part(0) | part(1) | part(2);
 }
 
-/// Groups by parent links, halved on the way up; the root is the first member.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parents_(count) {
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-  }
-
-  std::size_t root(std::size_t i) {
-    while (parents_[i] != i) {
-      parents_[i] = parents_[parents_[i]];
-      i = parents_[i];
-    }
-    return i;
-  }
-
-  void join(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parents_;
-};
-
 }  // namespace
 
 std::vector<std::size_t> cell_clusters(std::span<const CellKey> cells) {
   BrickIndex index;
-  Groups groups(cells.size());
+  DisjointSets groups(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     bool added = false;
     index.find_or_add(number_of(cells[i]), i, &added);
@@ -56,13 +30,14 @@ std::vector<std::size_t> cell_clusters(std::span<const CellKey> cells) {
           cells[i][0] + step % 3 - 1, cells[i][1] + step / 3 % 3 - 1, cells[i][2] + step / 9 - 1};
       if (near[0] < 0 || near[1] < 0) continue;
       const std::size_t found = index.find(number_of(near));
-      if (found != BrickIndex::kNone) groups.join(i, found);
+      if (found == BrickIndex::kNone) continue;
+      groups.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(found));
     }
   }
   std::vector<std::size_t> numbers(cells.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::size_t root = groups.root(i);
+    const std::size_t root = groups.find(static_cast<std::uint32_t>(i));
     numbers[i] = root == i ? count++ : numbers[root];
   }
   return numbers;

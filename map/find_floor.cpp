@@ -43,7 +43,7 @@ void for_each_upward_face(const OccupancyMap& map,
     if (brick.occupied.words[7] != 0 && above[2] < kKeyLimit) {
       const LogOddsBrick* next = map.bricks().find(brick_code(above));
       if (next != nullptr) {
-        faces.words[7] = brick.occupied.words[7] & (next->known() & ~next->at_least(0)).words[0];
+        faces.words[7] = brick.occupied.words[7] & (next->known() & ~next->occupied()).words[0];
       }
     }
     if (!faces.none()) visit(brick, faces);

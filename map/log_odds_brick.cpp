@@ -188,18 +188,18 @@ CellMask LogOddsBrick::known() const {
   return known;
 }
 
-CellMask LogOddsBrick::at_least(float threshold) const {
+CellMask LogOddsBrick::occupied() const {
   CellMask result;
   if (form_ == Form::kCells) {
     const float* values = floats_after(8);
     for_each_cell(known(), [&](std::size_t cell) {
-      if (values[cell] >= threshold) result.set(cell);
+      if (is_occupied(values[cell])) result.set(cell);
     });
     return result;
   }
   const Palette few = palette();
   for (std::size_t i = 0; i < few.count; ++i) {
-    if (few.values[i] >= threshold) result |= few.cells[i];
+    if (is_occupied(few.values[i])) result |= few.cells[i];
   }
   return result;
 }

@@ -12,6 +12,12 @@
 
 namespace facula {
 
+/// A cell is occupied from these log-odds (a probability of one half) up, and free below: OctoMap's
+/// occupancy threshold.
+inline bool is_occupied(float log_odds) {
+  return log_odds >= 0;
+}
+
 /// What one hit or one miss does to a cell's log-odds, in float as OctoMap has them.
 struct LogOddsModel {
   float hit = 0;   ///< added where a ray ended [1]
@@ -59,8 +65,8 @@ class LogOddsBrick {
 
   CellMask known() const;
 
-  /// Known cells of at least `threshold`.
-  CellMask at_least(float threshold) const;
+  /// Known cells that is_occupied() holds for.
+  CellMask occupied() const;
 
   /// Writes the values of the known cells, leaves the others as they are, and returns who is known.
   CellMask read(Values& values) const;

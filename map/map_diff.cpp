@@ -49,7 +49,7 @@ CellsByKind changed_cells(const OccupancyMap& before,
   after.for_each_brick([&](const OccupancyMap::BrickView& now) {
     const LogOddsBrick* brick = before.bricks().find(brick_code(now.first));
     const CellMask known = brick == nullptr ? CellMask() : brick->known();
-    const CellMask occupied = brick == nullptr ? CellMask() : brick->at_least(0);
+    const CellMask occupied = brick == nullptr ? CellMask() : brick->occupied();
     diff.compared_cells += static_cast<std::size_t>((known & now.known).count());
     const auto collect = [&](ChangeKind kind, const CellMask& changed, const OccupancyMap& other) {
       for_each_cell(changed, [&](std::size_t place) {

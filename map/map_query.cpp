@@ -10,8 +10,6 @@ namespace facula {
 namespace {
 
 /// Occupied is a log-odds of at least this, as OctoMap has it.
-constexpr float kOccupied = 0.0F;
-
 /// A table may have so many places per brick, and this many in any case.
 constexpr std::size_t kPlacesPerBrick = 64;
 constexpr std::size_t kPlacesAtLeast = 4096;
@@ -56,7 +54,7 @@ MapQuery::MapQuery(const OccupancyMap& map, int num_threads)
   bricks_.resize(entries.size() + 1);
   const auto copy = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      bricks_[i + 1] = {entries[i].brick.known(), entries[i].brick.at_least(kOccupied)};
+      bricks_[i + 1] = {entries[i].brick.known(), entries[i].brick.occupied()};
     }
   };
   parallel_for(entries.size(), copy, {.num_threads = num_threads, .chunk = 1024});

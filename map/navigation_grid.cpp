@@ -53,8 +53,8 @@ std::vector<float> largest_log_odds(const OccupancyMap& map,
 /// Rounded so that 50 % and more is what the map calls occupied.
 std::int8_t percent_of(float log_odds) {
   const double percent = std::round(100 / (1 + std::exp(-static_cast<double>(log_odds))));
-  return static_cast<std::int8_t>(log_odds >= 0 ? std::max(percent, 50.0)
-                                                : std::min(percent, 49.0));
+  return static_cast<std::int8_t>(is_occupied(log_odds) ? std::max(percent, 50.0)
+                                                        : std::min(percent, 49.0));
 }
 
 }  // namespace
@@ -83,9 +83,9 @@ NavigationGrid navigation_grid(const OccupancyMap& map, const NavigationGridOpti
   grid.occupancy.reserve(frame.size());
   for (const float log_odds : largest_log_odds(map, options, frame)) {
     const bool known = log_odds != kNothingKnown;
-    grid.cells.push_back(!known          ? NavigationGrid::kUnknown
-                         : log_odds >= 0 ? NavigationGrid::kOccupied
-                                         : NavigationGrid::kFree);
+    grid.cells.push_back(!known                  ? NavigationGrid::kUnknown
+                         : is_occupied(log_odds) ? NavigationGrid::kOccupied
+                                                 : NavigationGrid::kFree);
     grid.occupancy.push_back(known ? percent_of(log_odds) : std::int8_t{-1});
   }
   inflate(grid, options.inflation);

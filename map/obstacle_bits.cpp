@@ -9,8 +9,6 @@ namespace facula {
 namespace {
 
 /// Occupied is a log-odds of at least this, as OctoMap has it.
-constexpr float kOccupied = 0.0F;
-
 std::size_t bytes_of_row(const CellBox& box) {
   const auto cells = static_cast<std::size_t>((box.low[0] & 7) + box.size(0));
   return (cells + 7) / 8 + sizeof(std::uint64_t);
@@ -45,7 +43,7 @@ ObstacleBits::ObstacleBits(const OccupancyMap& map,
       const int column = (first[0] - (box_.low[0] - skipped_)) / kBrickEdge;
       if (y.begin >= y.end || z.begin >= z.end) continue;
       if (first[0] + kBrickEdge <= box_.low[0] || first[0] > box_.high[0]) continue;
-      CellMask mask = entries[i].brick.at_least(kOccupied);
+      CellMask mask = entries[i].brick.occupied();
       if (fill) mask |= ~entries[i].brick.known();
       for (int k = z.begin; k < z.end; ++k) {
         for (int j = y.begin; j < y.end; ++j) {

@@ -13,12 +13,9 @@
 namespace facula {
 namespace {
 
-/// Log-odds of a free or occupied cell: at least this is occupied.
-constexpr float kOccupied = 0.0F;
-
 CellState state_of(std::optional<float> log_odds) {
   if (!log_odds) return CellState::kUnknown;
-  return *log_odds >= kOccupied ? CellState::kOccupied : CellState::kFree;
+  return is_occupied(*log_odds) ? CellState::kOccupied : CellState::kFree;
 }
 
 }  // namespace
@@ -91,7 +88,7 @@ void OccupancyMap::for_each_leaf(
 
 void OccupancyMap::for_each_brick(const std::function<void(const BrickView&)>& visit) const {
   for (const LogOddsMap::Entry* entry : bricks_.sorted()) {
-    visit({first_cell(entry->code), entry->brick.known(), entry->brick.at_least(kOccupied)});
+    visit({first_cell(entry->code), entry->brick.known(), entry->brick.occupied()});
   }
 }
 

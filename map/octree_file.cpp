@@ -233,7 +233,7 @@ void write_color_ot(std::ostream& stream,
 void write_bt(std::ostream& stream, const LogOddsMap& map, double resolution) {
   // 1 stands for occupied, 0 for free. An inner node holds two bits per child: 1 free leaf, 2
   // occupied leaf, 3 inner node; what its children are is known once they have been met.
-  const PrunedOctree tree(map, [](float value) { return value >= 0 ? 1.0F : 0.0F; });
+  const PrunedOctree tree(map, [](float value) { return is_occupied(value) ? 1.0F : 0.0F; });
   write_header(stream, "# Octomap OcTree binary file", "OcTree", tree.size(), resolution);
   std::string bytes;
   std::array<std::size_t, kTreeDepth + 1> place{};  // of the inner node being written, per level

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/disjoint_sets.hpp>
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/triangle_mesh.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 #include <Eigen/Geometry>
@@ -32,30 +32,9 @@ std::vector<Edge> sorted_edges(const TriangleMesh& mesh) {
   return edges;
 }
 
-/// Disjoint sets of triangles, joined across shared edges.
-class TriangleSets {
- public:
-  explicit TriangleSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t root(std::uint32_t t) {
-    while (parent_[t] != t) t = parent_[t] = parent_[parent_[t]];
-    return t;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
-  std::size_t count() {
-    std::size_t roots = 0;
-    for (std::uint32_t t = 0; t < parent_.size(); ++t) roots += root(t) == t ? 1 : 0;
-    return roots;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 void count_edges(const TriangleMesh& mesh, MeshStatistics& result) {
   const std::vector<Edge> edges = sorted_edges(mesh);
-  TriangleSets sets(mesh.triangles.size());
+  DisjointSets sets(mesh.triangles.size());  // of triangles, joined across shared edges
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t j = i + 1;
     while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) {

@@ -29,9 +29,6 @@ class TimeSpent {
   Clock::time_point begin_ = Clock::now();
 };
 
-/// Log-odds of a free or occupied cell: at least this is occupied.
-constexpr float kOccupied = 0.0F;
-
 /// A scan's points in the frame of the map, as `facula map` takes them.
 PointCloud open_scan(const ListedScan& listed, RankFigures& figures) {
   const TimeSpent reading(figures.reading);
@@ -91,7 +88,7 @@ void RankMap::apply(const std::vector<Bytes>& received) {
 
 void RankMap::count_cells() {
   for (const LogOddsMap::Entry& entry : share_.entries()) {
-    const auto occupied = static_cast<std::uint64_t>(entry.brick.at_least(kOccupied).count());
+    const auto occupied = static_cast<std::uint64_t>(entry.brick.occupied().count());
     figures_.occupied_cells += occupied;
     figures_.free_cells += static_cast<std::uint64_t>(entry.brick.known().count()) - occupied;
   }

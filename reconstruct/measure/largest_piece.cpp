@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/disjoint_sets.hpp>
 #include <facula/acquire/core/error.hpp>
 #include <facula/reconstruct/measure/largest_piece.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -24,52 +24,38 @@ CellKey key_of(double u, double v) {
   return step(u) * kRow + step(v);
 }
 
-/// Groups of cells that touch, corners included (union-find over the sorted cells).
+/// Groups of cells that touch, corners included.
 class CellGroups {
  public:
   explicit CellGroups(const std::vector<CellKey>& key_of_point) : cells_(key_of_point) {
     std::sort(cells_.begin(), cells_.end());
     cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
-    parent_.resize(cells_.size());
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    sets_ = DisjointSets(cells_.size());
     join_neighbours();
   }
 
   std::size_t group_of(CellKey key) {
     const auto cell = std::lower_bound(cells_.begin(), cells_.end(), key);
-    return root(static_cast<std::size_t>(cell - cells_.begin()));
+    return sets_.find(static_cast<std::uint32_t>(cell - cells_.begin()));
   }
 
   std::size_t cells() const { return cells_.size(); }
 
  private:
-  std::size_t root(std::size_t cell) {
-    while (parent_[cell] != cell) {
-      parent_[cell] = parent_[parent_[cell]];
-      cell = parent_[cell];
-    }
-    return cell;
-  }
-
-  void join(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
   /// The cell beside it in its row and the three next to it in the following row.
   void join_neighbours() {
-    std::size_t next_row = 0;
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      if (i + 1 < cells_.size() && cells_[i + 1] == cells_[i] + 1) join(i, i + 1);
+    const auto count = static_cast<std::uint32_t>(cells_.size());
+    std::uint32_t next_row = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (i + 1 < count && cells_[i + 1] == cells_[i] + 1) sets_.join(i, i + 1);
       const CellKey first = cells_[i] + kRow - 1;
-      while (next_row < cells_.size() && cells_[next_row] < first) ++next_row;
-      for (std::size_t k = next_row; k < cells_.size() && cells_[k] <= first + 2; ++k) join(i, k);
+      while (next_row < count && cells_[next_row] < first) ++next_row;
+      for (std::uint32_t k = next_row; k < count && cells_[k] <= first + 2; ++k) sets_.join(i, k);
     }
   }
 
   std::vector<CellKey> cells_;
-  std::vector<std::size_t> parent_;
+  DisjointSets sets_{0};
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/disjoint_sets.hpp>
 #include <facula/acquire/core/error.hpp>
-#include <facula/reconstruct/mesh/disjoint_sets.hpp>
 #include <facula/reconstruct/mesh/mesh_cleaning.hpp>
 #include <facula/reconstruct/mesh/mesh_pieces.hpp>
 #include <facula/reconstruct/mesh/mesh_topology.hpp>

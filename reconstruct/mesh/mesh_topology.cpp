@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <facula/reconstruct/mesh/disjoint_sets.hpp>
+#include <facula/acquire/core/disjoint_sets.hpp>
 #include <facula/reconstruct/mesh/mesh_topology.hpp>
 
 #include <algorithm>

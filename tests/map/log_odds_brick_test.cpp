@@ -41,7 +41,7 @@ void expect_equal(const LogOddsBrick& brick, const PlainBrick& plain, int seed) 
     ASSERT_EQ(brick.value(cell), plain.cells[cell]) << "seed " << seed << ", cell " << cell;
     ASSERT_EQ(brick.known().test(cell), plain.cells[cell].has_value());
     const bool occupied = plain.cells[cell].has_value() && *plain.cells[cell] >= 0;
-    ASSERT_EQ(brick.at_least(0).test(cell), occupied);
+    ASSERT_EQ(brick.occupied().test(cell), occupied);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -25,6 +26,13 @@ class DisjointSets {
     b = find(b);
     if (a < b) parent_[b] = a;
     if (b < a) parent_[a] = b;
+  }
+
+  /// How many sets are left.
+  std::size_t count() const {
+    std::size_t roots = 0;
+    for (std::size_t i = 0; i < parent_.size(); ++i) roots += parent_[i] == i ? 1 : 0;
+    return roots;
   }
 
  private:
