@@ -9,8 +9,7 @@ shift $(($# > 0 ? 1 : 0))
 cd "$root"
 apps/setup.sh
 cmake --preset release
-cmake --build --preset release --target \
-  bench_filter bench_extract bench_log bench_map_insert bench_mesh bench_register
+cmake --build --preset release --target benchmarks
 tests/bench/run_programs.sh build/release/bin "$out" \
   --benchmark_repetitions=5 --benchmark_report_aggregates_only=true "$@"
 echo "written: $out"

@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs clang-tidy over every file of BUILD/compile_commands.json that lies below ROOT, on all cores.
 # A file that was clean is not looked at again until it, a header of the project that it includes, its
-# compile command or the configuration changes; the memory of that is BUILD/tidy.
+# compile command or the configuration changes. The memory of that lies with the user's caches, so that
+# another checkout gains by it too; what was not asked for in 30 days is forgotten.
 # Usage: tidy.sh ROOT BUILD
 set -euo pipefail
 root=$(realpath "$1")
 build=$(realpath "$2")
-mkdir -p "$build/tidy"
+memory=${XDG_CACHE_HOME:-$HOME/.cache}/facula/tidy
+mkdir -p "$build/tidy" "$memory"
+find "$memory" -type f -mtime +30 -delete
 
 # One key for what all files share.
 shared=$( (clang-tidy --version; find "$root" -maxdepth 2 -name .clang-tidy | sort | xargs cat) | sha256sum)
@@ -42,21 +45,22 @@ entries() {
 
 check() {
   local command=$1 file=$2 key
-  key=$( (echo "$TIDY_SHARED $command"; cd "$TIDY_ROOT"; closure "${file#"$TIDY_ROOT"/}" |
-            xargs -r -d '\n' cat 2>/dev/null) | sha256sum | cut -c 1-40)
-  [[ -e $TIDY_BUILD/tidy/$key ]] && return 0
+  key=$( (echo "$TIDY_SHARED ${command//"$TIDY_ROOT"/}"; cd "$TIDY_ROOT"
+          closure "${file#"$TIDY_ROOT"/}" | xargs -r -d '\n' cat 2>/dev/null) |
+         sha256sum | cut -c 1-40)
+  [[ ! -e $TIDY_MEMORY/$key ]] || { touch "$TIDY_MEMORY/$key"; return 0; }
   # The analyzer cannot follow the storage of CGAL's exact numbers (Mpzf).
   local checks=()
   [[ $file != *_cgal.cpp ]] || checks=(--checks=-clang-analyzer-cplusplus.NewDelete)
   if output=$(clang-tidy -p "$TIDY_BUILD" --quiet "${checks[@]}" "$file" 2>&1); then
-    touch "$TIDY_BUILD/tidy/$key"
+    touch "$TIDY_MEMORY/$key"
   else
     grep -E 'error:|warning:|note:' <<<"$output" || echo "$output"
     return 1
   fi
 }
 export -f check closure
-export TIDY_SHARED=$shared TIDY_BUILD=$build TIDY_ROOT=$root
+export TIDY_SHARED=$shared TIDY_BUILD=$build TIDY_ROOT=$root TIDY_MEMORY=$memory
 
 [[ -n $(entries) ]] || { echo "$build/compile_commands.json lists no file of $root"; exit 1; }
 entries | tr '\t\n' '\0\0' |
