@@ -22,13 +22,14 @@ struct SearchedCloud {
   PointCloud cloud;
   ScanGrid grid;
   PoseErrors poses;
+  std::size_t doubles = 0;  ///< points left out, for another stands in the same place [1]
 };
 
 /// No plane goes through points of one line, whatever the options.
-void require_spread(const PointCloud& cloud) {
-  require(spans_surface(cloud),
+void require_spread(const SearchedCloud& searched) {
+  require(spans_surface(searched.cloud),
           "expected points of a surface, got ",
-          cloud.size(),
+          searched.cloud.size() + searched.doubles,
           " on one line or in one spot, which no plane fits; choose another file");
 }
 
@@ -81,16 +82,22 @@ SearchedCloud read_scans(const PlaneSearch& search, Session& session) {
   require_surface(scans.points_read, scans.stripes, search.scans.front());
   session.figures.count("points", "points", scans.points_read);
   session.figures.count("mixed_removed", "mixed points removed", scans.mixed_removed);
-  SearchedCloud searched{scans.project.fused(), {}, pose_errors(scans.project)};
-  if (scans.project.scans.size() == 1) searched.grid = std::move(scans.project.scans[0].grid);
-  return searched;
+  if (scans.project.scans.size() == 1 && !scans.project.scans[0].grid.empty()) {
+    PointCloud cloud = scans.project.fused();
+    return {std::move(cloud), std::move(scans.project.scans[0].grid), pose_errors(scans.project)};
+  }
+  FusedScans fused = fuse_apart(scans.project);
+  if (fused.doubles > 0) {
+    session.figures.count("doubles_removed", "copies of points left out", fused.doubles);
+  }
+  return {std::move(fused.cloud), {}, std::move(fused.poses), fused.doubles};
 }
 
 SearchedCloud read_searched(const PlaneSearch& search, Session& session) {
   session.step("reading and filtering", 1, 3);
   SearchedCloud searched =
       all_lists(search.scans) ? read_lists(search, session) : read_scans(search, session);
-  require_spread(searched.cloud);
+  require_spread(searched);
   if (search.voxel > 0) {
     std::vector<std::uint32_t> voxel_of;
     searched.cloud = thin_by_voxel(searched.cloud, search.voxel, &voxel_of);

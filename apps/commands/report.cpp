@@ -65,7 +65,8 @@ ReportSection planes_section(const std::string& heading,
                              const ScanProject& project,
                              std::optional<double> inlier_distance,
                              int num_threads) {
-  PointCloud cloud = project.fused();
+  FusedScans fused = fuse_apart(project);
+  PointCloud& cloud = fused.cloud;
   NormalOptions normals;
   normals.num_threads = num_threads;
   estimate_normals(cloud, normals);
@@ -73,7 +74,7 @@ ReportSection planes_section(const std::string& heading,
   options.inlier_distance = inlier_distance ? *inlier_distance : default_inlier_distance(cloud);
   options.num_threads = num_threads;
   std::vector<ExtractedPlane> planes = extract_planes(cloud, options);
-  add_pose_responses(cloud, pose_errors(project), planes);
+  add_pose_responses(cloud, fused.poses, planes);
   return cloud_section(heading, cloud, planes, *options.inlier_distance);
 }
 

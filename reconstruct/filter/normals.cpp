@@ -2,13 +2,18 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/reconstruct/filter/cloud_filters.hpp>
+#include <facula/reconstruct/filter/distinct_points.hpp>
 #include <facula/reconstruct/filter/line_of_sight.hpp>
 #include <facula/reconstruct/filter/nearest_neighbours.hpp>
 #include <facula/reconstruct/filter/normals.hpp>
 #include <facula/reconstruct/filter/plane_of_points.hpp>
 #include <facula/reconstruct/filter/sampling_distance.hpp>
 
+#include <algorithm>
+#include <atomic>
+#include <optional>
 #include <span>
+#include <utility>
 
 namespace facula {
 namespace {
@@ -24,24 +29,44 @@ Eigen::Vector3f normal_of(const std::vector<Eigen::Vector3f>& surface,
   return plane.normal_towards(direction);
 }
 
-std::vector<Eigen::Vector3f> normals_of_neighbours(const PointCloud& cloud,
-                                                   const NearestNeighbours& tree,
-                                                   const NormalOptions& options) {
+/// More than the point itself stands where it does.
+bool has_double(std::span<const NearestNeighbours::Neighbour> neighbours) {
+  return std::count_if(neighbours.begin(), neighbours.end(), [](const auto& n) {
+           return n.squared_distance == 0;
+         }) > 1;
+}
+
+/// Nothing where points stand in one place: those would be all the neighbours of each other.
+std::optional<std::vector<Eigen::Vector3f>> normals_of_neighbours(const PointCloud& cloud,
+                                                                  const NearestNeighbours& tree,
+                                                                  const NormalOptions& options) {
   std::vector<Eigen::Vector3f> normals(cloud.size(), Eigen::Vector3f::Zero());
+  std::atomic<bool> doubles = false;
   const auto estimate = [&](std::size_t i, std::span<const NearestNeighbours::Neighbour> found) {
     normals[i] = normal_of(cloud.points, found, towards_sensor(cloud, i));
+    if (has_double(found)) doubles.store(true, std::memory_order_relaxed);
   };
   tree.for_all_nearest(options.neighbours, estimate, options.num_threads);
+  if (doubles) return std::nullopt;
   return normals;
 }
 
-/// The same with neighbours from the cloud thinned to `voxel`.
-std::vector<Eigen::Vector3f> normals_of_evened(const PointCloud& cloud,
-                                               double voxel,
-                                               const NormalOptions& options) {
+std::vector<Eigen::Vector3f> thinned_points(const PointCloud& cloud, double voxel) {
   PointCloud positions;
   positions.points = cloud.points;
-  const std::vector<Eigen::Vector3f> surface = thin_by_voxel(positions, voxel).points;
+  return thin_by_voxel(positions, voxel).points;
+}
+
+std::vector<Eigen::Vector3f> points_apart(const PointCloud& cloud) {
+  std::vector<Eigen::Vector3f> apart;
+  for (const std::size_t i : distinct_points(cloud.points)) apart.push_back(cloud.points[i]);
+  return apart;
+}
+
+/// The same with neighbours from other points of the cloud's surface.
+std::vector<Eigen::Vector3f> normals_of_surface(const PointCloud& cloud,
+                                                const std::vector<Eigen::Vector3f>& surface,
+                                                const NormalOptions& options) {
   const NearestNeighbours tree(surface, options.num_threads);
   std::vector<Eigen::Vector3f> normals(cloud.size(), Eigen::Vector3f::Zero());
   const auto estimate = [&](std::size_t begin, std::size_t end) {
@@ -70,8 +95,13 @@ void estimate_normals(PointCloud& cloud, const NormalOptions& options) {
           cloud.size());
   const NearestNeighbours tree(cloud.points, options.num_threads);
   const double voxel = evening_voxel(cloud, tree);
-  cloud.normals = voxel > 0 ? normals_of_evened(cloud, voxel, options)
-                            : normals_of_neighbours(cloud, tree, options);
+  if (voxel > 0) {
+    cloud.normals = normals_of_surface(cloud, thinned_points(cloud, voxel), options);
+    return;
+  }
+  auto normals = normals_of_neighbours(cloud, tree, options);
+  cloud.normals =
+      normals ? std::move(*normals) : normals_of_surface(cloud, points_apart(cloud), options);
 }
 
 }  // namespace facula

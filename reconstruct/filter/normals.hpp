@@ -16,6 +16,7 @@ struct NormalOptions {
 /// sensor origin (towards the frame's origin where there is none). Where the cloud is much denser
 /// along the stripe than from stripe to stripe, the neighbours come from the cloud evened out
 /// (evening_voxel()): those of one stripe lie on a line and hold no normal.
+/// Neighbours stand in places of their own: copies of a point count once.
 void estimate_normals(PointCloud& cloud, const NormalOptions& options = {});
 
 }  // namespace facula

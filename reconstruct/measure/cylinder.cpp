@@ -144,8 +144,10 @@ std::optional<Cylinder> best_of_trials(const PointCloud& cloud, const ShapeSearc
     }
   }
   require(usable.size() >= 5,
-          "a cylinder needs at least 5 points with normals, the cloud has ",
-          usable.size());
+          "expected a cylinder, got ",
+          usable.size(),
+          " points that have a normal, of which it needs at least 5; points on one line or in one "
+          "spot have none");
   Random random(options.seed);
   constexpr std::size_t kMostJudges = 5000;
   std::vector<std::size_t> judging = usable;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/reconstruct/filter/cloud_filters.hpp>
+#include <facula/reconstruct/filter/distinct_points.hpp>
 #include <facula/reconstruct/measure/pose_errors.hpp>
 
 #include <algorithm>
@@ -83,6 +85,21 @@ PoseErrors thinned(const PoseErrors& errors,
     result.first.push_back(result.shares.size());
   }
   return result;
+}
+
+FusedScans fuse_apart(const ScanProject& project) {
+  FusedScans fused{.cloud = project.fused(), .poses = pose_errors(project)};
+  const std::vector<std::size_t> kept = distinct_points(fused.cloud.points);
+  const auto finite = std::count_if(fused.cloud.points.begin(),
+                                    fused.cloud.points.end(),
+                                    [](const Eigen::Vector3f& p) { return p.allFinite(); });
+  fused.doubles = static_cast<std::size_t>(finite) - kept.size();
+  if (fused.doubles == 0) return fused;
+  std::vector<std::uint32_t> place(fused.cloud.size(), kNoVoxel);
+  for (std::size_t k = 0; k < kept.size(); ++k) place[kept[k]] = static_cast<std::uint32_t>(k);
+  fused.poses = thinned(fused.poses, place, kept.size());
+  fused.cloud = selected(fused.cloud, kept);
+  return fused;
 }
 
 void add_pose_responses(const PointCloud& cloud,

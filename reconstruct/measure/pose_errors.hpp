@@ -38,6 +38,18 @@ PoseErrors thinned(const PoseErrors& errors,
                    const std::vector<std::uint32_t>& voxel_of,
                    std::size_t count);
 
+/// The points of scans and the errors of their poses, for a search of planes.
+struct FusedScans {
+  PointCloud cloud;
+  PoseErrors poses;
+  std::size_t doubles = 0;  ///< points left out, for an earlier one stands in the same place [1]
+};
+
+/// project.fused(), each place once: a point that stands exactly where another does (of a scan
+/// given twice) tells nothing new, would make planes look surer than they are, and hides how far
+/// points stand apart. Where there are such points, those that are not finite go with them.
+FusedScans fuse_apart(const ScanProject& project);
+
 /// Tells every plane of the cloud how it answers these errors (PlaneFit::pose_response), by fitting
 /// it once more.
 void add_pose_responses(const PointCloud& cloud,

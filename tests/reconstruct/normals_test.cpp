@@ -44,6 +44,18 @@ TEST(EstimateNormals, IsExactOnATiltedPlaneFarFromTheOrigin) {
   for (const Eigen::Vector3f& n : cloud.normals) EXPECT_LT(angle(n, truth), 2e-3);
 }
 
+TEST(EstimateNormals, CopiesOfAPointCountOnce) {
+  const PointCloud once = sphere_points(2000, 2.0);
+  PointCloud cloud;
+  for (int copy = 0; copy < 25; ++copy) {
+    cloud.points.insert(cloud.points.end(), once.points.begin(), once.points.end());
+  }
+  estimate_normals(cloud);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    EXPECT_LT(angle(cloud.normals[i], -cloud.points[i].cast<double>()), 0.05);
+  }
+}
+
 TEST(EstimateNormals, DoesNotDependOnTheNumberOfThreads) {
   PointCloud one = sphere_points(5000, 1.0);
   PointCloud four = one;

@@ -33,6 +33,22 @@ TEST_F(Measure, KnownAnglesAndDistancesLieWithinTwiceTheStatedSigma) {
   EXPECT_LT(sigma, 0.2);
 }
 
+TEST_F(Measure, APointGivenTwiceTellsNothingNewOfAPlane) {
+  const PointCloud room = made_room();
+  write("room.pcd", room);
+  const Json figures = figures_of("planes room.pcd room.pcd");
+  EXPECT_EQ(figures.at("doubles_removed"), room.size());
+  ASSERT_EQ(figures.at("planes").size(), 4U);
+  const std::size_t made = room.size() / 4;
+  for (const Json& plane : figures.at("planes")) {
+    EXPECT_LE(plane.at("points"), made);
+    EXPECT_GT(plane.at("points"), made * 9 / 10);
+  }
+  const int floor = plane_like(figures.at("planes"), {0, 0, 1}, -1000);
+  const int step = plane_like(figures.at("planes"), {0, 0, 1}, -900);
+  EXPECT_NE(floor, step);
+}
+
 TEST_F(Measure, APlaneIsTheSamePlaneInEveryCommand) {
   write("room.pcd", made_room());
   const Json planes = figures_of("planes room.pcd --csv planes.csv");
