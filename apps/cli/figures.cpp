@@ -10,7 +10,7 @@
 namespace facula {
 namespace {
 
-constexpr std::array<std::pair<const char*, const char*>, 15> kUnits{{{"mm", "mm"},
+constexpr std::array<std::pair<const char*, const char*>, 16> kUnits{{{"mm", "mm"},
                                                                       {"m", "m"},
                                                                       {"deg", "deg"},
                                                                       {"rad", "rad"},
@@ -22,6 +22,7 @@ constexpr std::array<std::pair<const char*, const char*>, 15> kUnits{{{"mm", "mm
                                                                       {"l", "l"},
                                                                       {"percent", "%"},
                                                                       {"s", "s"},
+                                                                      {"mb", "MB"},
                                                                       {"mib", "MiB"},
                                                                       {"ppm", "ppm"},
                                                                       {"fps", "1/s"}}};

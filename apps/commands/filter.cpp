@@ -145,7 +145,7 @@ void put_back(PolarScan& scan, const PointCloud& world) {
 void report_counts(const FilterVerdict& verdict, Figures& figures) {
   figures.count("points", "points", verdict.reason.size());
   figures.count("kept", "kept", verdict.count(Removal::kKept));
-  Figures& removed = figures.part("removed", "removed");
+  Figures& removed = figures.part("removed", "Removed:");
   removed.count(
       "mixed", "between two surfaces or off theirs beside an edge", verdict.count(Removal::kMixed));
   removed.count("range", "outside the gate of range or height", verdict.count(Removal::kRange));

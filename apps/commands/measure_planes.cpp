@@ -43,9 +43,11 @@ Command measure_planes_command() {
       .description =
           "Finds the planes in a cloud, largest first, fits each by least squares weighted by the "
           "points' sigma, and measures its scatter, the angle of every pair, and the distance of "
-          "parallel pairs. rms is the standard deviation of the points about the plane, p2v the "
-          "largest minus the smallest distance, 4 sigma/D the system error of the scanner over its "
-          "mean distance D. Slices of round surfaces are no planes. A .csv of range_mm, pan_deg, "
+          "parallel pairs. rms is the standard deviation of the points about the plane, mean "
+          "their mean absolute distance, p2v the largest minus the smallest distance, 4 sigma/D "
+          "the "
+          "system error of the scanner over its mean distance D. Slices of round surfaces are no "
+          "planes. A .csv of range_mm, pan_deg, "
           "tilt_deg is read as a scan; --find-tilt-zero finds what its tilts lack.",
       .examples = {"facula simulate data/scenes/furnished_room.toml --rig "
                    "data/rigs/head_fs1500.toml --step-deg 3 "

@@ -206,6 +206,9 @@ void run(const MeshArguments& a, Session& session) {
       run_mesh_steps(made->mesh, made->cloud, made->voxel, steps, session.figures);
   for (const auto& path : a.out) write_mesh(path, made->mesh);
   report_verdict(verdict, session.figures);
+  for (std::size_t i = 0; i < a.out.size(); ++i) {
+    session.figures.text("out_" + std::to_string(i + 1), "written", a.out[i].string());
+  }
   if (a.compare.empty()) return;
   session.step("comparing", 4, 4);
   report_distances(distances_to_mesh(made->mesh.vertices, reference, session.num_threads),
@@ -229,9 +232,11 @@ Command mesh_command() {
                    "data/rigs/ciclop_turntable.toml --step-deg 10 --out object",
                    "facula extract object --out object.pcd",
                    "facula mesh object.pcd --out object.ply --out object.glb",
-                   "facula mesh object.pcd --watertight --max-error-mm 0.5 --out closed.stl",
-                   "facula mesh object.pcd --method grid --max-edge-mm 20 --out grid.ply "
-                   "--compare closed.stl"},
+                   "facula filter object.pcd --lowest-mm 5 --out jug.pcd",
+                   "facula mesh jug.pcd --keep-largest --watertight --max-error-mm 0.5 --out "
+                   "jug.stl",
+                   "facula mesh jug.pcd --method grid --max-edge-mm 20 --out grid.ply --compare "
+                   "jug.stl"},
       .declare = [a](Arguments& arguments) { declare(arguments, *a); },
       .run = [a](Session& session) { run(*a, session); }};
 }

@@ -18,6 +18,7 @@ namespace {
 constexpr Color kBackground{247, 248, 250};
 constexpr Color kFrontColor{158, 182, 206};
 constexpr Color kBackColor{214, 164, 92};
+constexpr const char* kBackText = "back of the surface, seen where it is open";
 constexpr int kFiner = 2;  // pixels of the raster per pixel of the picture, along each side
 
 /// Outer dimensions of the triangles along a view's right, up and towards_viewer.
@@ -90,6 +91,7 @@ Image8 mesh_views(const TriangleMesh& mesh, const MeshViewsOptions& options) {
 
   const ViewPanels panels = fit_panels(views, seen, options.panel);
   std::vector<Image8> pictures;
+  bool backs = false;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const RasterView view{views[i],
                           panels.centers[i],
@@ -102,10 +104,13 @@ Image8 mesh_views(const TriangleMesh& mesh, const MeshViewsOptions& options) {
                                      .hide_backs = options.hide_backs,
                                      .num_threads = options.num_threads});
     pictures.push_back(halved(shaded(mesh, view, raster)));
+    backs = backs || std::find(raster.back.begin(), raster.back.end(), 1) != raster.back.end();
   }
   const std::string remark = format_count(mesh.triangles.size()) + " triangles, " +
                              box_dimensions(box_seen(mesh, top_view()));
-  return join_panels(panels, pictures, remark);
+  const Image8 joined = join_panels(panels, pictures, remark);
+  if (!backs) return joined;
+  return below({joined, legend({{kBackColor, kBackText}}, joined.cols)});
 }
 
 }  // namespace facula

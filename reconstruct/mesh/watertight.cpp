@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/text_numbers.hpp>
 #include <facula/reconstruct/mesh/mesh_cleaning.hpp>
 #include <facula/reconstruct/mesh/mesh_engines.hpp>
 #include <facula/reconstruct/mesh/watertight.hpp>
@@ -145,7 +146,8 @@ WatertightResult make_watertight(const TriangleMesh& mesh,
   result.mesh = wrap_mesh(left ? result.mesh : sound, {.alpha = alpha, .offset = 0});
   result.wrapped = true;
   result.verdict = judged(result.mesh, points, options);
-  result.how = "wrapped at " + std::to_string(1000 * alpha) + " mm, since filling left " + wrong;
+  result.how = "wrapped at " + number_text(std::round(1e6 * alpha) / 1e3) +
+               " mm, since filling left " + wrong;
   require(result.verdict.watertight(),
           "the mesh could not be made watertight: filling its holes left ",
           wrong,
