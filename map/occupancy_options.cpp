@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/map/largest_cell.hpp>
 #include <facula/map/occupancy_map.hpp>
 
 #include <cmath>
@@ -30,6 +31,11 @@ float log_odds_of(double probability) {
 void OccupancyOptions::check() const {
   require(std::isfinite(resolution) && resolution > 0,
           "OccupancyOptions: expected a resolution above 0 m, got ",
+          resolution);
+  require(resolution <= kLargestCell,
+          "OccupancyOptions: expected a resolution of at most ",
+          kLargestCell,
+          " m, got ",
           resolution);
   require(std::isfinite(max_range) && max_range >= 0,
           "OccupancyOptions: expected max_range of 0 m (no limit) or more, got ",

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/acquire/core/whole_file.hpp>
 #include <facula/map/color_tree.hpp>
 #include <facula/map/octree_file.hpp>
 #include <facula/map/octree_header.hpp>
 #include <facula/map/pruned_octree.hpp>
 
 #include <cstring>
-#include <fstream>
 #include <locale>
 #include <ostream>
 #include <sstream>
@@ -176,18 +176,6 @@ class ColoredNodes {
   std::size_t count_ = 0;
 };
 
-std::string read_bytes(const std::filesystem::path& path) {
-  require(std::filesystem::is_regular_file(path),
-          "cannot read the map '",
-          path.string(),
-          "': there is no such file");
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  require(stream.is_open() && !stream.bad(), "cannot read the map '", path.string(), "'");
-  return std::move(bytes).str();
-}
-
 }  // namespace
 
 OctreeContent parse_octree(std::string_view file,
@@ -205,7 +193,7 @@ OctreeContent parse_octree(std::string_view file,
 }
 
 OctreeContent read_octree(const std::filesystem::path& path, const LogOddsModel& model) {
-  return parse_octree(read_bytes(path), model, path.string());
+  return parse_octree(read_whole_file(path), model, path.string());
 }
 
 void write_ot(std::ostream& stream, const LogOddsMap& map, double resolution) {

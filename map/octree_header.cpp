@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/map/largest_cell.hpp>
 #include <facula/map/octree_header.hpp>
 
 #include <charconv>
@@ -199,10 +200,12 @@ OctreeHeader parse_octree_header(std::string_view file, const std::string& name)
   }
   require(header.data_begin != 0, "'", name, "' is torn: its header has no line 'data'");
   require(has_id, "'", name, "' is damaged: its header has no line 'id'");
-  require(std::isfinite(header.resolution) && header.resolution > 0,
+  require(header.resolution > 0 && header.resolution <= kLargestCell,  // catches NaN too
           "'",
           name,
-          "': expected a resolution above 0 ('res') in the header, found ",
+          "': expected a resolution ('res') above 0 m and at most ",
+          kLargestCell,
+          " m in the header, found ",
           header.resolution);
   return header;
 }

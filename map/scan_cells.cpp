@@ -3,6 +3,7 @@
 #include <facula/acquire/core/parallel.hpp>
 #include <facula/map/dense_cells.hpp>
 #include <facula/map/discretize.hpp>
+#include <facula/map/largest_cell.hpp>
 #include <facula/map/ray_walk.hpp>
 #include <facula/map/sparse_cells.hpp>
 #include <facula/map/weigh_hits.hpp>
@@ -103,7 +104,11 @@ Rays rays_of(const PointCloud& cloud, const CastOptions& options, PointCloud& ke
           "a map needs to know where every point was seen from: the cloud has ",
           cloud.size(),
           " points but no sensor origins");
-  require(options.resolution > 0, "a cell's edge must be above 0 m, got ", options.resolution);
+  require(options.resolution > 0 && options.resolution <= kLargestCell,
+          "a cell's edge must be above 0 m and at most ",
+          kLargestCell,
+          " m, got ",
+          options.resolution);
   if (!options.discretize) return {cloud.sensor_origin, cloud.points};
   kept = one_ray_per_cell(cloud, options.resolution);
   return {kept.sensor_origin, kept.points};

@@ -257,6 +257,36 @@ TEST(OccupancyMap, SurvivesRaysLongerThanOctoMapsBufferAndShorterThanAFloatCanSq
   EXPECT_EQ(map.state({0.0005, 0.0005, 0.0005}), CellState::kOccupied);
 }
 
+TEST(OccupancyMap, TakesRaysOfAHundredKilometresAsFarAsCellsReach) {
+  const PointCloud cloud = seen_from({0.025F, 0.025F, 0.025F}, {{1e5F, 0.025F, 0.025F}});
+  OccupancyMap far({.resolution = 5});
+  far.insert(cloud);
+  EXPECT_EQ(far.statistics().free_cells, 20000U);
+  EXPECT_EQ(far.statistics().occupied_cells, 1U);
+  OccupancyMap fine({.resolution = 0.05});
+  fine.insert(cloud);
+  EXPECT_EQ(fine.skipped_points(), 1U);
+  EXPECT_EQ(fine.statistics().nodes, 0U);
+  OccupancyMap near({.resolution = 0.05, .max_range = 10});
+  near.insert(cloud);
+  EXPECT_EQ(near.skipped_points(), 0U);
+  EXPECT_EQ(near.statistics().free_cells, 200U);
+  EXPECT_EQ(near.statistics().occupied_cells, 0U);
+}
+
+TEST(OccupancyMap, EndsWalksThroughCellsOfAnySize) {
+  for (const double resolution : {1e-30, 1e-25, 1e-12, 1e9}) {
+    const auto reach = static_cast<float>(30000.5 * resolution);
+    const PointCloud cloud = seen_from({-reach, -reach, -reach}, {{reach, reach, reach}});
+    for (const double max_range : {0.0, 1e308}) {
+      OccupancyMap map({.resolution = resolution, .max_range = max_range});
+      map.insert(cloud);
+      EXPECT_EQ(map.skipped_points(), 0U) << resolution;
+      EXPECT_EQ(map.statistics().occupied_cells, 1U) << resolution;
+    }
+  }
+}
+
 TEST(OccupancyMap, IsUnknownOutsideTheTreeWithoutAWord) {
   const OccupancyMap map({.resolution = 0.1});
   testing::internal::CaptureStderr();
@@ -280,7 +310,9 @@ TEST(OccupancyMap, NamesTheOptionThatIsWrong) {
     return error_of([&] { OccupancyMap{options}; });
   };
   EXPECT_NE(message({.resolution = 0}).find("resolution"), std::string::npos);
+  EXPECT_NE(message({.resolution = -0.05}).find("resolution"), std::string::npos);
   EXPECT_NE(message({.resolution = kNan}).find("resolution"), std::string::npos);
+  EXPECT_NE(message({.resolution = 1e17}).find("at most 1e+09 m, got 1e+17"), std::string::npos);
   EXPECT_NE(message({.max_range = -1}).find("max_range"), std::string::npos);
   EXPECT_NE(message({.hit = 0.4}).find("hit"), std::string::npos);
   EXPECT_NE(message({.miss = 0.6}).find("miss"), std::string::npos);
