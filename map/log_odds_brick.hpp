@@ -25,10 +25,10 @@ struct LogOddsModel {
   float min = 0;   ///< least value that can be reached [1]
   float max = 0;   ///< largest [1]
 
-  /// OctoMap's updateNode(): a value already at its bound, or beyond it, stays as it is.
   /// With a hit that counts so many eighths: its probability's excess over one half is that share.
   LogOddsModel with_hit(int eighths) const;
 
+  // OctoMap's updateNode(): a value already at its bound, or beyond it, stays as it is.
   float after_hit(float value) const { return value >= max ? value : clamped(value + hit); }
   float after_miss(float value) const { return value <= min ? value : clamped(value + miss); }
 

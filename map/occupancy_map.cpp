@@ -58,11 +58,11 @@ MapStatistics OccupancyMap::statistics() const {
     const auto occupied = static_cast<std::size_t>(brick.occupied.count());
     statistics.occupied_cells += occupied;
     statistics.free_cells += static_cast<std::size_t>(brick.known.count()) - occupied;
-    for_each_cell(brick.known, [&](std::size_t cell) {
+    for_each_cell(brick.known, [&](std::size_t place) {
+      const CellKey key = cell_at(brick.first, place);
       for (std::size_t i = 0; i < 3; ++i) {
-        const int key = brick.first[i] + static_cast<int>(cell >> (3 * i) & 7);
-        low[i] = std::min(low[i], key);
-        high[i] = std::max(high[i], key + 1);
+        low[i] = std::min(low[i], key[i]);
+        high[i] = std::max(high[i], key[i] + 1);
       }
     });
   });

@@ -36,9 +36,7 @@ inline CellRay make_ray(const Eigen::Vector3f& origin,
   const double range = ray_length(end - origin);
   ray.cut = max_range > 0 && !(range <= max_range);
   if (ray.cut) {
-    // A vector too short for its length to be told from 0 stays as it is.
-    Eigen::Vector3f unit = end - origin;
-    if (range > 0) unit /= static_cast<float>(range);
+    const Eigen::Vector3f unit = (end - origin) / static_cast<float>(range);
     ray.end = origin + unit * static_cast<float>(max_range);
   }
   ray.first = cell_of(origin.cast<double>(), resolution);

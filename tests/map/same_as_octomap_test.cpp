@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The map is liboctomap's own, byte for byte: 560 seeded random scans, and all real sets.
+// The map is liboctomap's own, byte for byte: 800 seeded random scans.
 #include <facula/acquire/core/random.hpp>
 #include <facula/map/octomap_bridge.hpp>
 #include <facula/map/octomap_judge.hpp>
