@@ -19,7 +19,7 @@ struct PackedBricks {
 };
 
 /// All that one scan says about space, compressed in blocks that can be opened one by one: of
-/// 500 000 rays in a room of 8 x 6 x 3 m a hundredth of ScanCells at 5 cm, a seventh at 2 cm.
+/// 500 000 rays in a room of 8 x 6 x 3 m a tenth to a sixteenth of ScanCells at 5 and 2 cm.
 struct PackedCells {
   static constexpr std::size_t kBricksPerBlock = 512;  ///< at most [1]
 
