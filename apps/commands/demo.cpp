@@ -21,7 +21,7 @@ struct DemoArguments {
 
 void declare(Arguments& arguments, DemoArguments& a) {
   arguments.output("--out", a.out, "folder of the results; an earlier demo there is replaced");
-  arguments.flag("--quick", a.quick, "fewer frames: a few seconds, coarser results");
+  arguments.flag("--quick", a.quick, "fewer frames: coarser results in less than half the time");
   arguments.whole("--seed", a.seed, "of the noise and the rough poses");
 }
 

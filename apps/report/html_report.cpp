@@ -14,6 +14,8 @@
 namespace facula {
 namespace {
 
+constexpr std::size_t kColumnsThatFit = 9;  // of a table, without smaller letters
+
 /// Running numbers of figures and tables.
 struct Numbers {
   int figure = 0;
@@ -83,10 +85,11 @@ std::string row_html(const std::vector<std::string>& cells,
 std::string table_html(const ReportTable& table, Numbers& numbers) {
   check_table(table);
   const std::vector<bool> figures = figure_columns(table);
-  std::string html = "<div class=\"scroll\">\n<table>\n<caption>" +
-                     caption_html("Table", ++numbers.table, table.caption) +
-                     "</caption>\n<thead>\n" + row_html(table.columns, figures, "th") +
-                     "</thead>\n<tbody>\n";
+  const bool wide = table.columns.size() > kColumnsThatFit;
+  std::string html =
+      (wide ? "<div class=\"scroll wide\">" : "<div class=\"scroll\">") +
+      std::string("\n<table>\n<caption>") + caption_html("Table", ++numbers.table, table.caption) +
+      "</caption>\n<thead>\n" + row_html(table.columns, figures, "th") + "</thead>\n<tbody>\n";
   for (const std::vector<std::string>& row : table.rows) html += row_html(row, figures, "td");
   return html + "</tbody>\n</table>\n</div>\n";
 }

@@ -59,8 +59,9 @@ th:last-child, td:last-child { padding-right: .2rem; }
 td { border-bottom: 1px solid var(--line); vertical-align: top; }
 tbody tr:last-child td { border-bottom: 0; }
 tbody tr:nth-child(even) td { background: var(--faint); }
-th.figure, td.figure { text-align: right; white-space: nowrap;
-  font-variant-numeric: tabular-nums lining-nums; }
+th.figure, td.figure { text-align: right; font-variant-numeric: tabular-nums lining-nums; }
+td.figure { white-space: nowrap; }
+.wide th, .wide td { padding-right: .55rem; font-size: .85rem; }
 .summary table { width: 100%; max-width: 44rem; font-size: 1rem; }
 .imprint { margin-top: 3.5rem; padding-top: 1rem; padding-bottom: 3rem; color: var(--soft);
   font-size: .85rem; }
