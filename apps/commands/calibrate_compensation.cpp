@@ -72,7 +72,7 @@ void report(const CompensationFit& fit, const Rig& rig, Figures& figures) {
                           scale * p.held_out_rms});
   }
   figures.table(std::move(table));
-  for (const std::string& warning : fit.warnings) figures.note(warning);
+  for (const std::string& warning : fit.warnings) figures.note("Warning: " + warning + ".");
   if (!rig.range) {
     figures.note(
         "the rig has no range model, so nothing is said in mm; 'facula calibrate range' "

@@ -66,7 +66,7 @@ ProfilePolynomial calibrate_polynomial(const ProfileArguments& a,
     trials.rows.push_back({static_cast<long long>(t.degree), 1000 * t.rms, 1000 * t.held_out_rms});
   }
   figures.table(std::move(trials));
-  for (const std::string& warning : fit.warnings) figures.note(warning);
+  for (const std::string& warning : fit.warnings) figures.note("Warning: " + warning + ".");
   return fit.polynomial;
 }
 
@@ -95,7 +95,7 @@ SheetProjection calibrate_projection(const CsvTable& csv,
   figures.number("rms_mm", "residual, rms", 1000 * fit.rms, 4);
   figures.number("held_out_rms_px", "left out one by one, rms", fit.held_out_rms_px, 4);
   figures.number("held_out_rms_mm", "left out one by one, rms", 1000 * fit.held_out_rms, 4);
-  for (const std::string& warning : fit.warnings) figures.note(warning);
+  for (const std::string& warning : fit.warnings) figures.note("Warning: " + warning + ".");
   return fit.projection;
 }
 

@@ -166,7 +166,7 @@ void run(const RangeArguments& a, Session& session) {
   report_fit(fit, session.figures);
   report_comparison(fits, session.figures);
   report_points(points, fit, session.figures);
-  for (const std::string& warning : fit.warnings) session.figures.note(warning);
+  for (const std::string& warning : fit.warnings) session.figures.note("Warning: " + warning + ".");
   if (a.out.empty()) return;
   if (a.replace_laser) rig->lasers.clear();
   rig->range = fit.model;
@@ -174,8 +174,8 @@ void run(const RangeArguments& a, Session& session) {
   session.figures.text("out", "written", a.out.string());
   if (!rig->lasers.empty()) {
     session.figures.note(
-        "the rig keeps its laser planes, which go before the range model; "
-        "--replace-laser takes them out");
+        "The rig keeps its laser planes, which go before the range model; "
+        "--replace-laser takes them out.");
   }
 }
 

@@ -113,7 +113,7 @@ void report(const TwoLineFit& fit,
                           1000 * fit.head.depth_error(p.distance, 0.1 / focal_length)});
   }
   figures.table(std::move(table));
-  for (const std::string& warning : fit.warnings) figures.note(warning);
+  for (const std::string& warning : fit.warnings) figures.note("Warning: " + warning + ".");
 }
 
 void run(const TwoLineArguments& a, Session& session) {

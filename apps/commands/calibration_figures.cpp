@@ -33,7 +33,7 @@ void report_residuals(const JointCalibration& result, Figures& figures) {
 
 void report_views(const JointCalibration& result, Figures& figures) {
   FigureTable table{"views_table",
-                    "Views (held out where not said otherwise)",
+                    "Views (held out where not said otherwise):",
                     {{"view", "view"},
                      {"points", "points"},
                      {"wrong", "wrong"},
@@ -59,7 +59,7 @@ void report_views(const JointCalibration& result, Figures& figures) {
 void report_parameters(const Rig& rig, Figures& figures) {
   if (!rig.covariance) return;
   FigureTable table{
-      "parameters", "Parameters and their sigma", {{"name", "name"}, {"sigma", "sigma", 6}}, {}};
+      "parameters", "Parameters and their sigma:", {{"name", "name"}, {"sigma", "sigma", 6}}, {}};
   for (const std::string& name : rig.covariance->parameters) {
     table.rows.push_back({name, parameter_sigma(rig, name)});
   }

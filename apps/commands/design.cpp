@@ -43,7 +43,7 @@ void report_wanted(const DesignArguments& a, Figures& figures) {
   other.fs = wanted;
   Figures& part = figures.part(
       "wanted",
-      "For " + std::to_string(1000 * a.error).substr(0, 5) + " mm at the farthest distance");
+      "For " + std::to_string(1000 * a.error).substr(0, 5) + " mm at the farthest distance:");
   part.number("fs_mm2", "f s at least", 1e6 * wanted, 1);
   part.number("baseline_mm", "  baseline", 1000 * wanted / a.focal_length, 1);
   part.number("nearest_mm", "  nearest distance then", 1000 * other.nearest(), 1);

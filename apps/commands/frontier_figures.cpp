@@ -14,7 +14,7 @@ namespace {
 
 FigureTable suggestion_table(const Frontiers& frontiers) {
   FigureTable table{.key = "next_scans",
-                    .title = "Places, the best first",
+                    .title = "Places, the best first:",
                     .columns = {{"rank", "place", 0},
                                 {"x_m", "x", 2},
                                 {"y_m", "y", 2},
