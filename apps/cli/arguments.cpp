@@ -230,4 +230,8 @@ void Arguments::required() {
   specs_.back().required = true;
 }
 
+void Arguments::also(const std::string& name) {
+  specs_.back().also = name;
+}
+
 }  // namespace facula

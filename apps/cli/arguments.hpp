@@ -28,6 +28,7 @@ inline constexpr Unit kPlainNumber{"", 1};
 /// One option or positional argument of a command, as help shows it and the parser fills it.
 struct ArgumentSpec {
   std::string name;          ///< "--voxel-mm", or "SCAN" for a positional one
+  std::string also;          ///< another name that is understood; empty when there is none
   std::string value_name;    ///< "MM", "FILE"; empty for a flag
   std::string help;          ///< one sentence
   std::string default_text;  ///< as typed; empty when there is none
@@ -60,6 +61,7 @@ class Arguments {
               std::optional<double>& target,
               Unit unit,
               const std::string& help);
+  /// Three numbers, as three words or as one with commas.
   void vector(const std::string& name, Eigen::Vector3d& target, Unit unit, const std::string& help);
   void vector(const std::string& name,
               std::optional<Eigen::Vector3d>& target,
@@ -80,6 +82,9 @@ class Arguments {
 
   /// The argument declared last must be given.
   void required();
+
+  /// The option declared last is understood by this name too.
+  void also(const std::string& name);
 
   const std::vector<ArgumentSpec>& specs() const { return specs_; }
 

@@ -4,6 +4,7 @@
 #include <facula/apps/cli/usage_error.hpp>
 
 #include <algorithm>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -16,6 +17,52 @@ std::vector<std::string> option_names(const Arguments& arguments) {
     if (!spec.positional()) names.push_back(spec.name);
   }
   return names;
+}
+
+const ArgumentSpec* option_called(const Arguments& arguments, const std::string& name) {
+  for (const ArgumentSpec& spec : arguments.specs()) {
+    if (!spec.positional() && (spec.name == name || spec.also == name)) return &spec;
+  }
+  return nullptr;
+}
+
+/// "1,2,3" as three words; other words stay as they are.
+std::vector<std::string> split_at_commas(const std::string& word) {
+  if (std::count(word.begin(), word.end(), ',') != 2) return {word};
+  const std::size_t first = word.find(',');
+  const std::size_t second = word.find(',', first + 1);
+  return {
+      word.substr(0, first), word.substr(first + 1, second - first - 1), word.substr(second + 1)};
+}
+
+/// The words with every option by its own name, and vectors as three words.
+std::vector<std::string> plain_words(const Arguments& arguments,
+                                     const std::vector<std::string>& words) {
+  std::vector<std::string> plain;
+  const ArgumentSpec* before = nullptr;  // the option that the word stands right behind
+  const auto add_parts = [&](const std::string& word) {
+    for (std::string& part : split_at_commas(word)) plain.push_back(std::move(part));
+  };
+  for (const std::string& word : words) {
+    const bool behind_vector = before != nullptr && before->words == 3;
+    const std::size_t equals = word.find('=');
+    const std::string name = word.substr(0, equals);
+    before = word.starts_with("--") ? option_called(arguments, name) : nullptr;
+    if (before == nullptr && behind_vector) {
+      add_parts(word);
+    } else if (before == nullptr) {
+      plain.push_back(word);
+    } else if (equals == std::string::npos) {
+      plain.push_back(before->name);
+    } else if (before->words == 3) {
+      plain.push_back(before->name);
+      add_parts(word.substr(equals + 1));
+      before = nullptr;
+    } else {
+      plain.push_back(before->name + word.substr(equals));
+    }
+  }
+  return plain;
 }
 
 /// Said before anything else, since a mistyped option also makes others look missing.
@@ -60,7 +107,8 @@ void declare(CLI::App& app, const ArgumentSpec& spec) {
 
 }  // namespace
 
-void parse_arguments(const Arguments& arguments, const std::vector<std::string>& words) {
+void parse_arguments(const Arguments& arguments, const std::vector<std::string>& typed) {
+  const std::vector<std::string> words = plain_words(arguments, typed);
   check_option_names(arguments, words);
   CLI::App app;
   app.set_help_flag();

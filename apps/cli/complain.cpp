@@ -6,8 +6,20 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <string_view>
 
 namespace facula {
+namespace {
+
+/// "MeshOptions: expected ..." without the type, whose name says nothing to who types options.
+std::string without_type(const std::string& sentence) {
+  constexpr std::string_view kEnd = "Options: ";
+  const std::size_t at = sentence.find(kEnd);
+  const bool leads = at != std::string::npos && sentence.find(' ') > at;
+  return leads ? sentence.substr(at + kEnd.size()) : sentence;
+}
+
+}  // namespace
 
 int complain(const std::string& who, const std::string& sentence, int code) {
   std::string line = sentence;
@@ -33,7 +45,7 @@ int complain(const std::string& who, const std::exception_ptr& thrown) {
                         "': " + error.code().message() + "; check the path and its permissions",
                     kFailed);
   } catch (const std::exception& error) {
-    return complain(who, error.what(), kFailed);
+    return complain(who, without_type(error.what()), kFailed);
   }
 }
 

@@ -14,7 +14,8 @@ constexpr int kWrongUsage = 2;  ///< exit code: the command line is wrong
 /// returns `code`.
 int complain(const std::string& who, const std::string& sentence, int code);
 
-/// The same for what was thrown: returns kWrongUsage for a UsageError, else kFailed.
+/// The same for what was thrown: returns kWrongUsage for a UsageError, else kFailed. Names of the
+/// library's types in front of a sentence ("MeshOptions: ") are left out.
 int complain(const std::string& who, const std::exception_ptr& thrown);
 
 }  // namespace facula

@@ -2,12 +2,14 @@
 #include <facula/apps/cli/output_path.hpp>
 #include <facula/apps/cli/usage_error.hpp>
 #include <facula/apps/commands/csv_figures.hpp>
+#include <facula/apps/commands/machine_memory.hpp>
 #include <facula/apps/commands/map_plan.hpp>
 #include <facula/apps/commands/path_table.hpp>
 #include <facula/apps/report/path_picture.hpp>
 #include <facula/apps/report/png.hpp>
 #include <facula/map/path_plan.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <string>
@@ -29,12 +31,17 @@ struct PlanArguments {
 void declare(Arguments& arguments, PlanArguments& a) {
   arguments.input("MAP", a.map, "a map (.bt, .ot, .fmap)");
   arguments.required();
-  arguments.vector("--from-m", a.from, kMetres, "start");
+  arguments.vector("--from-m", a.from, kMetres, "start, also --from X,Y,Z");
   arguments.required();
-  arguments.vector("--to-m", a.to, kMetres, "goal");
+  arguments.also("--from");
+  arguments.vector("--to-m", a.to, kMetres, "goal, also --to X,Y,Z");
   arguments.required();
-  arguments.number(
-      "--radius-m", a.options.radius, kMetres, "of the ball that has to stay clear of obstacles");
+  arguments.also("--to");
+  arguments.number("--radius-m",
+                   a.options.radius,
+                   kMetres,
+                   "of the ball that has to stay clear of obstacles, also --radius");
+  arguments.also("--radius");
   arguments.choice("--unknown", a.unknown, {"blocked", "free"}, "what cells nobody has seen are");
   arguments.flag(
       "--flat", a.options.flat, "stay at the start's height, as robots on the ground do");
@@ -44,12 +51,19 @@ void declare(Arguments& arguments, PlanArguments& a) {
   arguments.output("--picture", a.picture, "the path over the map from above (.png)");
 }
 
+/// What the distance field may take: the search may need half as much again [bytes].
+std::size_t memory_for_field() {
+  constexpr double kShareOfMachine = 0.6;
+  return static_cast<std::size_t>(kShareOfMachine * machine_memory());
+}
+
 void run(const PlanArguments& a, Session& session) {
   if (!a.csv.empty()) check_output(a.csv, {".csv"});
   if (!a.picture.empty()) check_output(a.picture, {".png"});
   PathPlanOptions options = a.options;
   options.unknown = a.unknown == "free" ? UnknownCells::kFree : UnknownCells::kOccupied;
   options.num_threads = session.num_threads;
+  options.max_memory = std::min(options.max_memory, memory_for_field());
   if (a.seed == 0 || a.seed > std::numeric_limits<std::uint32_t>::max()) {
     fail_usage("--seed: expected a whole number from 1 to 4294967295, got ", a.seed);
   }
@@ -57,8 +71,9 @@ void run(const PlanArguments& a, Session& session) {
   options.check();
   const OccupancyMap map = OccupancyMap::read(a.map);
   const PathPlan plan = plan_path(map, *a.from, *a.to, options);
-  if (!a.csv.empty()) write_table_csv(a.csv, path_table(plan));
+  // The picture first: where nothing can be drawn, nothing is left.
   if (!a.picture.empty()) write_png(a.picture, path_picture(map, plan, options.radius));
+  if (!a.csv.empty()) write_table_csv(a.csv, path_table(plan));
   report_path(plan, session.figures);
   session.figures.count("corners", "corners", plan.corners.size());
   session.figures.count("paths", "paths found, this is the shortest", plan.paths);

@@ -36,6 +36,18 @@ inline CellKey near_centre(int x, int y, int z) {
   return {kCentreKey + x, kCentreKey + y, kCentreKey + z};
 }
 
+/// A hall of 4 x 4 x 2 m of free cells of 10 cm, its corner at 0, and a wall across it at x = 2 to
+/// 2.1 m with a door from y = 3 to 3.8 m as high as the hall.
+inline OccupancyMap hall_with_door() {
+  OccupancyMap map({.resolution = 0.1});
+  for_each_cell_of({near_centre(0, 0, 0), near_centre(39, 39, 19)}, [&](const CellKey& cell) {
+    const int y = cell[1] - kCentreKey;
+    const bool wall = cell[0] == kCentreKey + 20 && (y < 30 || y > 37);
+    set_cell(map, cell, wall ? kOccupiedValue : kFreeValue);
+  });
+  return map;
+}
+
 struct CellShares {
   double unknown = 0;   ///< of all cells [1]
   double occupied = 0;  ///< of the known ones [1]

@@ -12,18 +12,6 @@
 namespace facula {
 namespace {
 
-/// A hall of 4 x 4 x 2 m of free cells of 10 cm, its corner at 0, and a wall across it at x = 2 to
-/// 2.1 m with a door from y = 3 to 3.8 m as high as the hall.
-OccupancyMap hall_with_door() {
-  OccupancyMap map({.resolution = 0.1});
-  for_each_cell_of({near_centre(0, 0, 0), near_centre(39, 39, 19)}, [&](const CellKey& cell) {
-    const int y = cell[1] - kCentreKey;
-    const bool wall = cell[0] == kCentreKey + 20 && (y < 30 || y > 37);
-    set_cell(map, cell, wall ? kOccupiedValue : kFreeValue);
-  });
-  return map;
-}
-
 const Eigen::Vector3d kStart(0.5, 0.5, 1);
 const Eigen::Vector3d kGoal(3.5, 0.5, 1);
 

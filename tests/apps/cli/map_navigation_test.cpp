@@ -4,7 +4,6 @@
 #include <facula/tests/map/made_map.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -18,19 +17,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A hall of 4 x 4 x 2 m of free cells of 10 cm, its corner at 0, and a wall across it at x = 2 to
-/// 2.1 m with a door from y = 3 to 3.8 m as high as the hall.
 class MapNavigation : public testing::Test {
  protected:
-  void SetUp() override {
-    OccupancyMap map({.resolution = 0.1});
-    for_each_cell_of({near_centre(0, 0, 0), near_centre(39, 39, 19)}, [&](const CellKey& cell) {
-      const int y = cell[1] - kCentreKey;
-      const bool wall = cell[0] == kCentreKey + 20 && (y < 30 || y > 37);
-      set_cell(map, cell, wall ? kOccupiedValue : kFreeValue);
-    });
-    map.write(folder_ / "hall.bt");
-  }
+  void SetUp() override { hall_with_door().write(folder_ / "hall.bt"); }
 
   ProgramRun run(const std::string& line) const { return run_line(line, folder_.path()); }
 
@@ -70,6 +59,14 @@ TEST_F(MapNavigation, PlansTheSamePathForTheSameSeed) {
   EXPECT_EQ(run(plan + "--seed 2 --csv c.csv && cmp a.csv c.csv").code, 1);
 }
 
+TEST_F(MapNavigation, TakesPlacesWithCommasAndNamesWithoutUnits) {
+  const ProgramRun same =
+      run("facula map plan hall.bt --from-m 0.5 0.5 1 --to-m 3.5 0.5 1 --radius-m 0.3 --csv a.csv "
+          "&& facula map plan hall.bt --from 0.5,0.5,1 --to=3.5,0.5,1 --radius 0.3 --csv b.csv "
+          "&& cmp a.csv b.csv");
+  EXPECT_EQ(same.code, 0) << same.out << same.err;
+}
+
 TEST_F(MapNavigation, AnswersQuestionsAboutPlacesRaysAndBoxes) {
   const Json place =
       figures_of("map query hall.bt --at-m 1 1 1 --radius-m 2 --unknown free").at("place");
@@ -104,10 +101,7 @@ TEST_F(MapNavigation, AnswersFilesOfPlacesAndRays) {
 
 TEST_F(MapNavigation, RefusesInOneSentence) {
   const auto refuses = [&](const std::string& line, int code, const std::string& words) {
-    const ProgramRun refused = run("facula " + line);
-    EXPECT_EQ(refused.code, code) << line;
-    EXPECT_NE(refused.err.find(words), std::string::npos) << line << '\n' << refused.err;
-    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    expect_refused(run("facula " + line), code, words);
   };
   const std::string plan = "map plan hall.bt --from-m 0.5 0.5 1 --to-m ";
   refuses(plan + "2.05 1 1", 1, "expected the goal in free space, got (2.05, 1, 1) m inside");

@@ -2,11 +2,13 @@
 #include <facula/tests/apps/cli/program_run.hpp>
 #include <facula/tests/support/temporary_folder.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 namespace facula {
@@ -33,6 +35,13 @@ ProgramRun run_line(const std::string& line, const std::filesystem::path& folder
   run.out = contents(streams / "out");
   run.err = contents(streams / "err");
   return run;
+}
+
+void expect_refused(const ProgramRun& run, int code, const std::string& words) {
+  EXPECT_EQ(run.code, code) << run.err;
+  EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_EQ(run.out, "") << run.err;
 }
 
 const std::vector<std::string>& command_names() {

@@ -17,6 +17,10 @@ struct ProgramRun {
 /// Runs a shell line in a folder; `facula` in it is the program just built.
 ProgramRun run_line(const std::string& line, const std::filesystem::path& folder);
 
+/// Expects a run to have failed with this code, nothing on standard output and one sentence on
+/// standard error that holds the words.
+void expect_refused(const ProgramRun& run, int code, const std::string& words);
+
 /// The commands the program has, as users type them.
 const std::vector<std::string>& command_names();
 

@@ -19,12 +19,8 @@ class Usage : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// A usage error: code 2, one line that holds the words, nothing on standard output.
 void expect_usage_error(const ProgramRun& run, const std::string& words) {
-  EXPECT_EQ(run.code, 2);
-  EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-  EXPECT_EQ(run.out, "");
+  expect_refused(run, 2, words);
 }
 
 TEST_F(Usage, HelpOfEveryCommandShowsAnExample) {
@@ -87,6 +83,23 @@ TEST_F(Usage, MalformedValuesSayWhatWasExpected) {
   expect_usage_error(run("facula mesh s.pcd --out m.ply --method advancing-frnt"),
                      "did you mean 'advancing-front'?");
   expect_usage_error(run("facula mesh s.pcd --out m.ply --threads 99999"), "--threads");
+}
+
+TEST_F(Usage, VectorsAreThreeWordsOrOneWithCommas) {
+  const std::string missing = "none.pcd";  // what the command says once it has read the words
+  const std::string line = "facula measure profile none.pcd --at-mm ";
+  for (const char* typed : {"-1 2.5 3", "-1,2.5,3"}) {
+    expect_refused(run(line + typed), 1, missing);
+  }
+  expect_refused(run("facula measure profile none.pcd --at-mm=-1,2.5,3"), 1, missing);
+  expect_usage_error(run(line + "1,2"), "--at-mm: expected three numbers, got 1");
+  expect_usage_error(run(line + "1,,3"), "--at-mm: expected a number in mm, got ''");
+  expect_usage_error(run(line + "1,2,3,4"), "--at-mm");
+}
+
+TEST_F(Usage, SentencesDoNotNameTypesOfTheLibrary) {
+  EXPECT_EQ(run("facula map s.pcd --out m.bt --resolution-mm 0").err,
+            "facula map: expected a resolution above 0 m, got 0\n");
 }
 
 TEST_F(Usage, MissingArgumentsAreNamed) {
