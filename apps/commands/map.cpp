@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 
 namespace facula {
 namespace {
@@ -116,6 +117,26 @@ MadeMap make_map(const MapArguments& a, Session& session) {
   return made;
 }
 
+/// Cells and sensor model belong to a map: a finished one is not made again with others.
+void check_sensor_model(const MapArguments& a) {
+  const auto told = [](const OccupancyOptions& o) {
+    return std::tuple(o.resolution,
+                      o.max_range,
+                      o.hit,
+                      o.miss,
+                      o.clamp_min,
+                      o.clamp_max,
+                      o.discretize,
+                      o.weigh_sigma);
+  };
+  if ((is_finished(a) || !a.update.empty()) && told(a.options) != told({})) {
+    fail_usage(
+        "a finished map keeps its cells and sensor model; leave out --resolution-mm, "
+        "--max-range-m, --hit, --miss, --clamp-min, --clamp-max, --discretize and --weigh-sigma, "
+        "or make the map of its scans again");
+  }
+}
+
 void check(const MapArguments& a) {
   for (const auto& path : a.out) check_output(path, {".bt", ".ot", ".fmap"});
   check_map_outputs(a.outputs);
@@ -132,6 +153,7 @@ void check(const MapArguments& a) {
     fail_usage("--remove needs a map that keeps its scans: give a .fmap file, or --update one");
   }
   a.options.check();
+  check_sensor_model(a);
 }
 
 void write_map(const std::filesystem::path& path, const MadeMap& made) {

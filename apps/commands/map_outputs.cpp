@@ -135,6 +135,9 @@ void check_map_outputs(const MapOutputs& o) {
   if (twice != files.end()) {
     fail_usage("two outputs would be written to '", twice->string(), "'; give them other names");
   }
+  if (o.floor && !o.above_floor && o.frontiers.empty()) {
+    fail_usage("--floor-m belongs to --above-floor or --frontiers");
+  }
   o.band.check();
   o.next_scans.check();
 }

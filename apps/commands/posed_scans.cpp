@@ -40,11 +40,12 @@ std::vector<ListedScan> scans_of(const std::filesystem::path& path) {
   const FileKind kind = file_kind(path);
   require(kind == FileKind::kProject || kind == FileKind::kScan || kind == FileKind::kCloud ||
               kind == FileKind::kMesh,
-          "expected a scan, a cloud or a project of scans, got a ",
-          to_string(kind),
-          " in '",
+          "expected a scan, a cloud or a project of scans in '",
           path.string(),
-          "'; 'facula extract' makes scans of captures");
+          "', found: ",
+          to_string(kind),
+          kind == FileKind::kMap ? "; 'facula map merge' adds maps to each other"
+                                 : "; 'facula extract' makes scans of captures");
   if (is_octomap_log(path)) return list_log(path);
   if (kind != FileKind::kMesh || lower_extension(path) == ".ply") return list_scans(path);
   return {{.name = path.filename().string(), .file = path, .read = [path] {

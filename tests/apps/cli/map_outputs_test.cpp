@@ -38,10 +38,7 @@ class MapOutputs : public testing::Test {
   }
 
   void expect_refused(const std::string& line, int code, const std::string& words) const {
-    const ProgramRun refused = run_line("facula map " + line, folder_.path());
-    EXPECT_EQ(refused.code, code) << line << '\n' << refused.err;
-    EXPECT_NE(refused.err.find(words), std::string::npos) << line << '\n' << refused.err;
-    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    facula::expect_refused(run_line("facula map " + line, folder_.path()), code, words);
     EXPECT_FALSE(has_file_like(folder_.path(), "result")) << line;
   }
 
@@ -112,6 +109,9 @@ TEST_F(MapOutputs, RefuseWhatCannotBe) {
   expect_refused("room.ot --grid result.yaml --verify", 2, "--verify needs");
   expect_refused("room.ot --frontiers result.png --height-map result.png", 2, "'result.png'");
   expect_refused("room.ot --grid result.png", 1, ".yaml");
+  expect_refused("room.ot --resolution-mm 20 --out result.ot", 2, "keeps its cells");
+  expect_refused("room.ot --grid result.yaml --floor-m 1", 2, "--floor-m belongs to");
+  expect_refused("room.ot room.ot --out result.ot", 1, "facula map merge");
   expect_refused("room.ot --grid result.yaml --grid-mode grey", 2, "trinary");
   expect_refused("room.ot --frontiers result.csv --scanner-height-m 9", 1, "tripod");
   expect_refused("room.ot --height-map result.tif --max-height-m -9 --min-height-m -10", 1, "-9 m");
