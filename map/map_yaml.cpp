@@ -18,6 +18,25 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1));
 }
 
+/// The line without a comment, which begins with # at its start or behind a space, but not between
+/// quotes.
+std::string without_comment(const std::string& line) {
+  char quote = 0;  // the one that is open
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    const bool begins_word = i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t';
+    if (quote == '"' && c == '\\')
+      ++i;
+    else if (quote != 0)
+      quote = c == quote ? char{0} : quote;
+    else if (begins_word && (c == '"' || c == '\''))
+      quote = c;
+    else if (begins_word && c == '#')
+      return line.substr(0, i);
+  }
+  return line;
+}
+
 /// Numbers of "[1, 2, 3]" or "1"; none where one is malformed or not finite.
 std::vector<double> listed(const std::string& text) {
   std::vector<double> values;
@@ -72,9 +91,9 @@ MapYaml read_map_yaml(const std::filesystem::path& path) {
   MapYaml yaml{path.string(), {}};
   std::istringstream lines(read_whole_file(path));
   for (std::string line; std::getline(lines, line);) {
-    line = line.substr(0, line.find(" #"));
+    line = without_comment(line);
     const auto colon = line.find(':');
-    if (colon == std::string::npos || trimmed(line).starts_with('#')) continue;
+    if (colon == std::string::npos) continue;
     yaml.entries[trimmed(std::string_view(line).substr(0, colon))] =
         trimmed(std::string_view(line).substr(colon + 1));
   }
@@ -96,6 +115,9 @@ std::string yaml_scalar(const std::string& text) {
 }
 
 std::string yaml_text(const std::string& scalar) {
+  if (scalar.size() > 1 && scalar.front() == '\'' && scalar.back() == '\'') {
+    return scalar.substr(1, scalar.size() - 2);
+  }
   if (scalar.size() < 2 || scalar.front() != '"' || scalar.back() != '"') return scalar;
   std::string plain;
   for (std::size_t i = 1; i + 1 < scalar.size(); ++i) {

@@ -28,7 +28,8 @@ struct MapYaml {
 /// Throws Error when the file is missing.
 MapYaml read_map_yaml(const std::filesystem::path& path);
 
-/// A YAML scalar: bare where no character could mean something, else in double quotes; and back.
+/// A YAML scalar: bare where no character could mean something, else in double quotes; and back,
+/// also from single quotes, in which no character means anything.
 std::string yaml_scalar(const std::string& text);
 std::string yaml_text(const std::string& scalar);
 

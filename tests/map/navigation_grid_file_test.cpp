@@ -41,7 +41,7 @@ TEST(NavigationGridFile, WritesThePixelsAndKeysThatMapServersRead) {
 
 TEST(NavigationGridFile, ReadsBackWhatItWrote) {
   const TemporaryFolder folder;
-  for (const char* name : {"a.yaml", "two words - \"#1\": x.yaml"}) {
+  for (const char* name : {"a.yaml", "map #1.yaml", "two words - \"#1\": x.yaml"}) {
     write_navigation_grid(folder / name, sample_grid());
     const NavigationGrid back = read_navigation_grid(folder / name);
     EXPECT_EQ(back.rows, 2);
@@ -63,6 +63,15 @@ TEST(NavigationGridFile, ReadsWhatTheRosMapSaverWrites) {
   EXPECT_EQ(grid.cells, (std::vector<std::uint8_t>{kUnknown, kFree}));
   EXPECT_EQ(grid.resolution, 0.05);
   EXPECT_EQ(grid.origin, Eigen::Vector2d(-10, -10));
+}
+
+TEST(NavigationGridFile, ReadsNamesInSingleQuotes) {
+  const TemporaryFolder folder;
+  folder.write("my map #1.pgm", "P5\n2 1\n255\n" + std::string("\xcd\xfe", 2));
+  const auto yaml = folder.write("map.yaml",
+                                 "image: 'my map #1.pgm'\nresolution: 0.05\norigin: [0, 0, 0]\n"
+                                 "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  EXPECT_EQ(read_navigation_grid(yaml).cells, (std::vector<std::uint8_t>{kUnknown, kFree}));
 }
 
 TEST(NavigationGridFile, SaysWhatIsWrongWithAFile) {
