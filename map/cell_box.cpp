@@ -20,10 +20,10 @@ std::optional<CellBox> known_box(const OccupancyMap& map) {
         first[0] + kBrickEdge - 1, first[1] + kBrickEdge - 1, first[2] + kBrickEdge - 1};
     if (box.contains(first) && box.contains(last)) continue;
     for_each_cell(entry.brick.known(), [&](std::size_t cell) {
+      const CellKey key = cell_at(first, cell);
       for (std::size_t i = 0; i < 3; ++i) {
-        const int key = first[i] + static_cast<int>(cell >> (3 * i) & 7);
-        box.low[i] = std::min(box.low[i], key);
-        box.high[i] = std::max(box.high[i], key);
+        box.low[i] = std::min(box.low[i], key[i]);
+        box.high[i] = std::max(box.high[i], key[i]);
       }
     });
   }

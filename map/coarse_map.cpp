@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/error.hpp>
+#include <facula/map/cell_box.hpp>
 #include <facula/map/coarse_map.hpp>
 
 #include <algorithm>
@@ -11,8 +12,8 @@ constexpr double kMostCells = 67108864.0;  // 2^26
 
 /// Coarse keys of the box: low inclusive, high exclusive.
 struct CoarseBox {
-  std::array<int, 3> low = {kKeyLimit, kKeyLimit, kKeyLimit};
-  std::array<int, 3> high = {0, 0, 0};
+  std::array<int, 3> low{};
+  std::array<int, 3> high{};
 };
 
 int level_for(double resolution, double least_edge) {
@@ -21,18 +22,14 @@ int level_for(double resolution, double least_edge) {
   return level;
 }
 
-CoarseBox known_box(const OccupancyMap& map, int level) {
+CoarseBox coarse_box(const OccupancyMap& map, int level) {
+  const auto known = known_box(map);
+  require(known.has_value(), "the map is empty; there is nothing to look from");
   CoarseBox box;
-  map.for_each_brick([&](const OccupancyMap::BrickView& brick) {
-    for_each_cell(brick.known, [&](std::size_t cell) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const int key = (brick.first[i] + static_cast<int>(cell >> (3 * i) & 7)) >> level;
-        box.low[i] = std::min(box.low[i], key);
-        box.high[i] = std::max(box.high[i], key + 1);
-      }
-    });
-  });
-  require(box.low[0] < box.high[0], "the map is empty; there is nothing to look from");
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.low[i] = known->low[i] >> level;
+    box.high[i] = (known->high[i] >> level) + 1;
+  }
   return box;
 }
 
@@ -40,7 +37,7 @@ CoarseBox known_box(const OccupancyMap& map, int level) {
 
 CoarseMap coarse_map(const OccupancyMap& map, const CoarseOptions& options) {
   const int level = level_for(map.resolution(), options.least_edge);
-  CoarseBox box = known_box(map, level);
+  CoarseBox box = coarse_box(map, level);
   CoarseMap coarse;
   coarse.edge = map.resolution() * (1 << level);
   const int margin = static_cast<int>(
@@ -67,10 +64,8 @@ CoarseMap coarse_map(const OccupancyMap& map, const CoarseOptions& options) {
   coarse.cells.assign(known.size(), CellState::kUnknown);
   map.for_each_brick([&](const OccupancyMap::BrickView& brick) {
     for_each_cell(brick.known, [&](std::size_t cell) {
-      std::array<int, 3> place{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        place[i] = ((brick.first[i] + static_cast<int>(cell >> (3 * i) & 7)) >> level) - box.low[i];
-      }
+      std::array<int, 3> place = cell_at(brick.first, cell);
+      for (std::size_t i = 0; i < 3; ++i) place[i] = (place[i] >> level) - box.low[i];
       const std::size_t index = coarse.index(place);
       ++known[index];
       if (brick.occupied.test(cell)) coarse.cells[index] = CellState::kOccupied;

@@ -42,9 +42,7 @@ HeightMap height_map(const OccupancyMap& map, const HeightMapOptions& options) {
   heights.top.assign(frame->size(), std::numeric_limits<float>::quiet_NaN());
   map.for_each_brick([&](const OccupancyMap::BrickView& brick) {
     for_each_cell(brick.occupied & mask_of(layers, brick.first[2]), [&](std::size_t cell) {
-      const int x = brick.first[0] + static_cast<int>(cell & 7);
-      const int y = brick.first[1] + static_cast<int>(cell >> 3 & 7);
-      const int z = brick.first[2] + static_cast<int>(cell >> 6);
+      const auto [x, y, z] = cell_at(brick.first, cell);
       const auto top = static_cast<float>((z + 1 - kCentreKey) * resolution);
       float& highest = heights.top[frame->index(x, y)];
       if (!(highest >= top)) highest = top;

@@ -9,7 +9,6 @@
 namespace facula {
 namespace {
 
-/// Occupied is a log-odds of at least this, as OctoMap has it.
 /// A table may have so many places per brick, and this many in any case.
 constexpr std::size_t kPlacesPerBrick = 64;
 constexpr std::size_t kPlacesAtLeast = 4096;

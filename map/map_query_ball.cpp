@@ -41,9 +41,7 @@ class NearestSearch {
     for_each_cell(mask, [&](std::size_t cell) {
       const double squared = gaps[0][cell & 7] + gaps[1][cell >> 3 & 7] + gaps[2][cell >> 6];
       if (squared > best_squared_) return;
-      const CellKey key = {first[0] + static_cast<int>(cell & 7),
-                           first[1] + static_cast<int>(cell >> 3 & 7),
-                           first[2] + static_cast<int>(cell >> 6)};
+      const CellKey key = cell_at(first, cell);
       if (found_ && squared == best_squared_ && !before(key, best_)) return;
       best_ = key;
       best_squared_ = squared;

@@ -77,7 +77,7 @@ void require_ray(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction
   // Lengths whose square is no float any more have no direction either.
   const double length = ray_length(direction);
   if (origin.allFinite() && std::isfinite(length) && length > 0) return;
-  fail("expected a ray with a finite origin and a direction that is not 0, got ",
+  fail("expected a ray with a finite origin and a direction that is not 0 or beyond 1e19 m, got ",
        place_text(origin),
        " m and ",
        place_text(direction));

@@ -41,9 +41,8 @@ std::vector<float> largest_log_odds(const OccupancyMap& map,
     const CellMask band = mask_of(layers, first[2]);
     if (band.none()) continue;
     for_each_cell(entry.brick.read(values) & band, [&](std::size_t cell) {
-      const int x = first[0] + static_cast<int>(cell & 7);
-      const int y = first[1] + static_cast<int>(cell >> 3 & 7);
-      float& column = largest[frame.index(x, y)];
+      const CellKey key = cell_at(first, cell);
+      float& column = largest[frame.index(key[0], key[1])];
       column = std::max(column, values[cell]);
     });
   }

@@ -8,7 +8,6 @@
 namespace facula {
 namespace {
 
-/// Occupied is a log-odds of at least this, as OctoMap has it.
 std::size_t bytes_of_row(const CellBox& box) {
   const auto cells = static_cast<std::size_t>((box.low[0] & 7) + box.size(0));
   return (cells + 7) / 8 + sizeof(std::uint64_t);
