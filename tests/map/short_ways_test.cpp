@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/map/short_ways.hpp>
 #include <facula/tests/map/made_map.hpp>
+#include <facula/tests/map/steps_by_queue.hpp>
 
-#include <deque>
-#include <map>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -14,37 +13,15 @@ namespace {
 const CellBox kBox{near_centre(0, 0, 0), near_centre(24, 19, 6)};
 constexpr double kRadius = 0.12;
 
-using StepMap = std::map<CellKey, int>;
-
 bool beside(const CellKey& cell, const CellKey& end) {
   return grown({end, end}, 1).contains(cell);
 }
 
-/// Steps from one end to all cells, cell after cell.
-StepMap steps_by_queue(const Clearance& clearance,
-                       const std::array<CellKey, 2>& ends,
-                       const CellKey& first) {
-  const auto open = [&](const CellKey& cell) {
-    const bool near_end = beside(cell, ends[0]) || beside(cell, ends[1]);
-    return kBox.contains(cell) && (clearance.holds_at_centre(cell, kRadius) ||
-                                   (near_end && clearance.may_hold(cell, kRadius)));
-  };
-  StepMap steps = {{first, 0}};
-  std::deque<CellKey> queue = {first};
-  while (!queue.empty()) {
-    const CellKey cell = queue.front();
-    queue.pop_front();
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (const int step : {-1, 1}) {
-        CellKey next = cell;
-        next[i] += step;
-        if (!open(next) || steps.contains(next)) continue;
-        steps[next] = steps[cell] + 1;
-        queue.push_back(next);
-      }
-    }
-  }
-  return steps;
+/// Cells that ways go over.
+bool is_open(const Clearance& clearance, const std::array<CellKey, 2>& ends, const CellKey& cell) {
+  const bool near_end = beside(cell, ends[0]) || beside(cell, ends[1]);
+  return kBox.contains(cell) && (clearance.holds_at_centre(cell, kRadius) ||
+                                 (near_end && clearance.may_hold(cell, kRadius)));
 }
 
 TEST(ShortWays, AreTheCellsWhoseStepsToBothEndsAreFewEnough) {
@@ -60,8 +37,9 @@ TEST(ShortWays, AreTheCellsWhoseStepsToBothEndsAreFewEnough) {
     const Clearance clearance(map, {.unknown = UnknownCells::kFree});
     const auto cells = cells_of_short_ways(
         clearance, kBox, ends, {.radius = kRadius, .detour = 0.2, .num_threads = 1 + round % 2});
-    const StepMap from_start = steps_by_queue(clearance, ends, ends[0]);
-    const StepMap from_goal = steps_by_queue(clearance, ends, ends[1]);
+    const auto open = [&](const CellKey& cell) { return is_open(clearance, ends, cell); };
+    const auto from_start = steps_by_queue(ends[0], open);
+    const auto from_goal = steps_by_queue(ends[1], open);
     std::set<CellKey> truth;
     if (from_start.contains(ends[1])) {
       ++connected;
