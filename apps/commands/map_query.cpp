@@ -42,7 +42,8 @@ void declare(Arguments& arguments, QueryArguments& a) {
   arguments.input(
       "--points",
       a.points,
-      "many places in the map's frame: .csv (x y z in metres, then anything), .xyz, .ply, .pcd");
+      "many places in the map's frame: .csv (x y z in metres, then anything), .xyz, .ply, .pcd; "
+      "those that are no numbers are left out");
   arguments.input("--rays",
                   a.rays,
                   "many rays: a .csv with the columns x_m, y_m, z_m and to_x_m, to_y_m, to_z_m");

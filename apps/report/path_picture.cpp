@@ -54,7 +54,13 @@ ColorScale scale_of(const PathPlan& plan) {
 void draw_end(Image8& canvas, const Eigen::Vector2d& at, const char* name) {
   draw_disc(canvas, at, 9, kPaper);
   draw_disc(canvas, at, 7, kEndColor);
-  draw_text(canvas, at + Eigen::Vector2d(12, -14), name, {.size = 17, .color = kEndColor});
+  const Eigen::Vector2d text = at + Eigen::Vector2d(12, -14);
+  for (const double right : {-2.0, 0.0, 2.0}) {  // a light seam, to be read over dark cells
+    for (const double down : {-2.0, 0.0, 2.0}) {
+      draw_text(canvas, text + Eigen::Vector2d(right, down), name, {.size = 17, .color = kPaper});
+    }
+  }
+  draw_text(canvas, text, name, {.size = 17, .color = kEndColor});
 }
 
 }  // namespace
