@@ -53,7 +53,7 @@ void declare(Arguments& arguments, ReportArguments& a) {
   arguments.input("--mesh", a.mesh, "a mesh: three views");
   arguments.input("--compare", a.compare, "points to show in the colours of their deviations");
   arguments.input("--reference", a.reference, "the mesh or cloud that --compare deviates from");
-  arguments.input("--map", a.map, "an occupancy map (.bt, .ot) from above");
+  arguments.input("--map", a.map, "an occupancy map (.bt, .ot, .fmap) from above");
   arguments.flag("--next-scans", a.next_scans, "of --map also: its floor and where to scan next");
   arguments.input("--path", a.path, "a path (.csv of 'map plan') over the map");
   arguments.output("--pictures", a.pictures, "folder that also gets every picture as a .png");
