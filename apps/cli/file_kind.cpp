@@ -86,8 +86,8 @@ FileKind file_kind(const fs::path& path) {
     if (extension == points) return FileKind::kCloud;
   }
   fail(
-      "expected a file that facula reads (.toml, .flog, .pcd, .ply, .asc, .xyz, .obj, .stl, .off, "
-      ".glb, .bt, .ot, .fmap, .yaml, .conf, .graph or a folder), got '",
+      "expected a file that facula reads (.toml, .flog, .pcd, .ply, .asc, .xyz, .csv, .obj, .stl, "
+      ".off, .glb, .bt, .ot, .fmap, .blocks, .yaml, .conf, .graph or a folder), got '",
       path.string(),
       "'; convert it first");
 }
