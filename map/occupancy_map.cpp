@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <facula/acquire/core/atomic_file.hpp>
 #include <facula/acquire/core/error.hpp>
+#include <facula/map/cell_box.hpp>
 #include <facula/map/map_file.hpp>
 #include <facula/map/map_folder.hpp>
 #include <facula/map/occupancy_map.hpp>
 #include <facula/map/octree_file.hpp>
 #include <facula/map/pruned_octree.hpp>
 
-#include <algorithm>
 #include <utility>
 
 namespace facula {
@@ -52,26 +52,19 @@ CellState OccupancyMap::state_of_cell(const CellKey& cell) const {
 
 MapStatistics OccupancyMap::statistics() const {
   MapStatistics statistics;
-  std::array<int, 3> low = {kKeyLimit, kKeyLimit, kKeyLimit};
-  std::array<int, 3> high = {0, 0, 0};
   for_each_brick([&](const BrickView& brick) {
     const auto occupied = static_cast<std::size_t>(brick.occupied.count());
     statistics.occupied_cells += occupied;
     statistics.free_cells += static_cast<std::size_t>(brick.known.count()) - occupied;
-    for_each_cell(brick.known, [&](std::size_t place) {
-      const CellKey key = cell_at(brick.first, place);
-      for (std::size_t i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], key[i]);
-        high[i] = std::max(high[i], key[i] + 1);
-      }
-    });
   });
   statistics.nodes = PrunedOctree(bricks_).size();
   statistics.memory = bricks_.memory_usage() + colors_.memory_usage();
-  if (statistics.nodes == 0) return statistics;
+  const std::optional<CellBox> box = known_box(*this);
+  if (!box) return statistics;
+  const CellKey behind = {box->high[0] + 1, box->high[1] + 1, box->high[2] + 1};
   const Eigen::Vector3d half = Eigen::Vector3d::Constant(options_.resolution / 2);
-  statistics.min = centre_of(low, options_.resolution) - half;
-  statistics.max = centre_of(high, options_.resolution) - half;
+  statistics.min = centre_of(box->low, options_.resolution) - half;
+  statistics.max = centre_of(behind, options_.resolution) - half;
   return statistics;
 }
 
