@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A Facula map file whose blocks hold any bytes at all, under right checksums: an Error, or a map
-// and scans that can be used. The input is a row of blocks: one byte that says which kind, two for
-// the size of the contents, the contents. An input that begins with 'F' is taken for a whole file
-// as it is.
+// and scans that can be used, and taken out. The input is a row of blocks: one byte that says which
+// kind, two for the size of the contents, the contents. An input that begins with 'F' is taken for
+// a whole file as it is.
 #include <facula/acquire/core/error.hpp>
 #include <facula/map/deflated.hpp>
 #include <facula/map/map_blocks.hpp>
@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <sstream>
+#include <utility>
 
 namespace {
 
@@ -44,10 +45,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string file =
       size > 0 && data[0] == 'F' ? std::string(data, data + size) : sealed(input);
   try {
-    const MapFile content = parse_map_file(bytes_of_text(file), "fuzz");
+    MapFile content = parse_map_file(bytes_of_text(file), "fuzz");
     std::size_t cells = content.map.statistics().free_cells;
     for (const KeptScan& scan : content.scans) {
       cells += unpack(scan.cells).bricks.size() + unpack_colors(scan.colors).size();
+    }
+    if (!content.scans.empty()) {
+      const std::string name = content.scans.front().record.name;
+      ScanMap scans(std::move(content.map), std::move(content.scans));
+      cells += scans.remove(name).bricks;
     }
     volatile std::size_t used = cells;
     static_cast<void>(used);
