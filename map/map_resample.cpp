@@ -69,7 +69,7 @@ std::vector<std::uint64_t> reached_bricks(const OccupancyMap& source, const Resa
     count += range.count();
     require(count <= kMaxBricks,
             "the map would fill more than ",
-            kMaxBricks,
+            static_cast<std::size_t>(kMaxBricks),
             " bricks of 8 x 8 x 8 cells of ",
             grid.resolution,
             " m; take larger cells");
