@@ -149,6 +149,11 @@ void check(const MapArguments& a) {
   if (a.verify && (is_finished(a) || !a.update.empty())) {
     fail_usage("--verify needs all the scans, and a map made of them alone");
   }
+  if (!a.update.empty() && is_finished(a)) {
+    fail_usage("--update takes scans, got the finished map '",
+               a.scans[0].string(),
+               "'; 'facula map merge' adds two maps");
+  }
   if (!a.remove.empty() && a.update.empty() && !is_finished(a)) {
     fail_usage("--remove needs a map that keeps its scans: give a .fmap file, or --update one");
   }

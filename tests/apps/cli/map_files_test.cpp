@@ -156,6 +156,7 @@ TEST_F(MapFiles, KeptScansAreRemovedAndReplacedAsIfMappedAnew) {
   EXPECT_EQ(json["scans_unchanged"], 2);
   EXPECT_TRUE(is_same_map(OccupancyMap::read(folder_ / "new.fmap"), map_of(moved.scans)));
   EXPECT_EQ(run("facula map kept.fmap --remove nobody --out x.fmap").code, 1);
+  EXPECT_EQ(run("facula map after.fmap --update kept.fmap --out x.fmap").code, 2);
 }
 
 TEST_F(MapFiles, DamageIsOneSentence) {
