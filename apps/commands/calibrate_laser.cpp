@@ -13,12 +13,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace facula {
 namespace {
+
+constexpr double kAsGood = 1.5;  // times the least error of views left out
 
 struct LaserArguments {
   std::vector<std::filesystem::path> pictures;
@@ -148,7 +152,28 @@ Attempt attempt(const std::vector<LaserPicture>& pictures,
   return made;
 }
 
-/// All channels asked for; the one whose sheet predicts the views left out best is the result.
+/// The best first. A channel that sees the line in few views must not win, nor one that takes the
+/// board's print for the line in many: so of those with half as many views as any has, and of these
+/// those that miss the views left out by little more than the best of them, the one with most
+/// views.
+void best_first(std::vector<Attempt>& made) {
+  std::size_t most = 0;
+  for (const Attempt& one : made) most = std::max(most, one.fit.views.size());
+  const auto seen = [&](const Attempt& one) { return 2 * one.fit.views.size() >= most; };
+  double least = std::numeric_limits<double>::infinity();
+  for (const Attempt& one : made) {
+    if (seen(one)) least = std::min(least, one.fit.held_out_rms);
+  }
+  const auto worth = [&](const Attempt& one) {
+    const bool good = seen(one) && one.fit.held_out_rms <= kAsGood * least;
+    return std::tuple(good, good ? one.fit.views.size() : 0, -one.fit.held_out_rms);
+  };
+  std::stable_sort(made.begin(), made.end(), [&](const Attempt& x, const Attempt& y) {
+    return worth(x) > worth(y);
+  });
+}
+
+/// All channels asked for, the one to take first.
 std::vector<Attempt> attempts(const LaserArguments& a,
                               const std::vector<LaserPicture>& pictures,
                               const Board& board,
@@ -170,13 +195,7 @@ std::vector<Attempt> attempts(const LaserArguments& a,
     }
   }
   if (made.empty()) throw Error(*failure);
-  const auto worth = [](const Attempt& one) {
-    // Views count first: a channel that sees the line in few of them must not win.
-    return std::pair(one.fit.views.size(), -one.fit.held_out_rms);
-  };
-  std::stable_sort(made.begin(), made.end(), [&](const Attempt& x, const Attempt& y) {
-    return worth(x) > worth(y);
-  });
+  best_first(made);
   return made;
 }
 

@@ -15,6 +15,8 @@
 namespace facula {
 namespace {
 
+constexpr double kBeyondLimits = 0.1;  // share of a limit by which a fitted radius may miss it
+
 struct ProfileArguments {
   std::vector<std::filesystem::path> scans;
   std::filesystem::path csv;
@@ -89,17 +91,39 @@ void measure_section(const ProfileArguments& a, const PointCloud& cloud, Session
   }
 }
 
+/// The search keeps to the limits, but the fit goes where the points take it: far from them they
+/// are of something else.
+void require_radius(const std::string& shape, double radius, const ShapeSearchOptions& options) {
+  require(radius >= (1 - kBeyondLimits) * options.min_radius &&
+              radius <= (1 + kBeyondLimits) * options.max_radius,
+          "expected a ",
+          shape,
+          " with a radius of ",
+          1000 * options.min_radius,
+          " to ",
+          1000 * options.max_radius,
+          " mm, but the points that look like one fit a radius of ",
+          1000 * radius,
+          " mm; change the limits, or lower --inlier-mm (it was ",
+          1000 * options.inlier_distance,
+          " mm)");
+}
+
 void measure_shape(const ProfileArguments& a, PointCloud cloud, Session& session) {
   ShapeSearchOptions options = a.search;
   if (a.max_radius) options.max_radius = *a.max_radius;
   options.seed = static_cast<unsigned>(a.seed % std::numeric_limits<unsigned>::max());
   options.check();
   if (a.shape == "ball") {
-    report_sphere(find_sphere(cloud, options).fit, session.figures);
+    const SphereFit ball = find_sphere(cloud, options).fit;
+    require_radius(a.shape, ball.sphere.radius, options);
+    report_sphere(ball, session.figures);
     return;
   }
   estimate_normals(cloud, {.num_threads = session.num_threads});
-  report_cylinder(find_cylinder(cloud, options).fit, session.figures);
+  const CylinderFit rod = find_cylinder(cloud, options).fit;
+  require_radius(a.shape, rod.cylinder.radius, options);
+  report_cylinder(rod, session.figures);
 }
 
 void run(const ProfileArguments& a, Session& session) {
