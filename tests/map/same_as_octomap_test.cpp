@@ -185,5 +185,28 @@ TEST(CellsOfScan, AreTheReferencesWhateverTheWay) {
   }
 }
 
+TEST(CellsOfScan, AreTheReferencesWhereRaysLieTooFarApartForOneSetOfBits) {
+  constexpr double kResolution = 0.01;
+  Random random(6, 61);
+  PointCloud cloud;
+  for (int scan = 0; scan < 300; ++scan) {
+    PointCloud part = random_scan(random, kResolution);
+    const Eigen::Vector3f shift = scan % 2 * Eigen::Vector3f(200, -200, 3);
+    for (Eigen::Vector3f& x : part.points) x += shift;
+    for (Eigen::Vector3f& x : part.sensor_origin) x += shift;
+    append(cloud, part);
+  }
+  ASSERT_GT(cloud.size(), 60000U);  // several pieces of work
+  CastOptions options{.resolution = kResolution, .num_threads = 3};
+  for (const bool boxed : {false, true}) {
+    if (boxed) options.box = MapBox{{-0.2F, -0.1F, -0.2F}, {200.1F, 0.2F, 0.1F}};
+    const ScanCells fast = cells_of_scan(cloud, options);
+    const ScanCells reference = cells_of_scan_reference(cloud, options);
+    EXPECT_TRUE(fast.bricks == reference.bricks) << boxed;
+    EXPECT_EQ(fast.skipped, reference.skipped) << boxed;
+    EXPECT_GT(fast.bricks.size(), 100U) << boxed;
+  }
+}
+
 }  // namespace
 }  // namespace facula
