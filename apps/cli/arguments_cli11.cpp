@@ -107,13 +107,13 @@ void declare(CLI::App& app, const ArgumentSpec& spec) {
 
 }  // namespace
 
-void parse_arguments(const Arguments& arguments, const std::vector<std::string>& typed) {
-  const std::vector<std::string> words = plain_words(arguments, typed);
-  check_option_names(arguments, words);
+void parse_arguments(const Arguments& arguments, const std::vector<std::string>& words) {
+  const std::vector<std::string> plain = plain_words(arguments, words);
+  check_option_names(arguments, plain);
   CLI::App app;
   app.set_help_flag();
   for (const ArgumentSpec& spec : arguments.specs()) declare(app, spec);
-  std::vector<std::string> reversed(words.rbegin(), words.rend());
+  std::vector<std::string> reversed(plain.rbegin(), plain.rend());
   std::replace(reversed.begin(), reversed.end(), std::string("-o"), std::string("--out"));
   try {
     app.parse(reversed);
