@@ -54,15 +54,17 @@ std::vector<double> turning_positions(const AxisProgramme& p) {
 }  // namespace
 
 void declare_axis_programme(Arguments& arguments, AxisProgramme& p) {
-  arguments.number("--from-deg", p.from_angle, kDegrees, "first position of a turning axis, 0");
+  arguments.number(
+      "--from-deg", p.from_angle, kDegrees, "first position of a turning axis; else 0");
   arguments.number("--to-deg",
                    p.to_angle,
                    kDegrees,
-                   "last position, 360; the end of a full turn is not taken twice");
-  arguments.number("--step-deg", p.step_angle, kDegrees, "between two frames, 1");
-  arguments.number("--from-mm", p.from_length, kMillimetres, "first position of a linear axis, 0");
-  arguments.number("--to-mm", p.to_length, kMillimetres, "last position, 100");
-  arguments.number("--step-mm", p.step_length, kMillimetres, "between two frames, 1");
+                   "last position; else 360; the end of a full turn is not taken twice");
+  arguments.number("--step-deg", p.step_angle, kDegrees, "between two frames; else 1");
+  arguments.number(
+      "--from-mm", p.from_length, kMillimetres, "first position of a linear axis; else 0");
+  arguments.number("--to-mm", p.to_length, kMillimetres, "last position; else 100");
+  arguments.number("--step-mm", p.step_length, kMillimetres, "between two frames; else 1");
 }
 
 std::vector<double> axis_positions(const AxisProgramme& p, const Axis& axis) {

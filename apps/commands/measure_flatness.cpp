@@ -53,6 +53,38 @@ Surfaces found_surfaces(const FlatnessArguments& a, Session& session) {
   return surfaces;
 }
 
+/// "1, 3, 4": the planes that the test picks, as people count them.
+template <typename Test>
+std::string planes_that(const std::vector<MeasuredFlatness>& all, const Test& test) {
+  std::string names;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (test(all[i])) names += (names.empty() ? "" : ", ") + std::to_string(i + 1);
+  }
+  return names;
+}
+
+/// What noise lets one say of the planes that were not cut.
+void add_verdicts(const std::vector<MeasuredFlatness>& all, double band, Figures& figures) {
+  if (all.size() == 1 || !all.front().uncertainty) {
+    if (!is_cut(all.front().flatness, band)) figures.note(flatness_verdict(all.front()));
+    return;
+  }
+  const auto whole_and = [&](bool flat) {
+    return planes_that(all, [&](const MeasuredFlatness& one) {
+      return !is_cut(one.flatness, band) && one.uncertainty &&
+             (one.flatness.total <= one.uncertainty->floor_p95) == flat;
+    });
+  };
+  if (const std::string flat = whole_and(true); !flat.empty()) {
+    figures.note("No deviation from flat is proven of plane " + flat +
+                 ": noise alone would show as much (last column).");
+  }
+  if (const std::string bent = whole_and(false); !bent.empty()) {
+    figures.note("FLTt of plane " + bent +
+                 " exceeds what noise alone would show (last column): the rest is the surface's.");
+  }
+}
+
 /// Flatness of a slice says nothing of the surface it was cut from.
 void add_notes(const FlatnessArguments& a,
                const PointCloud& cloud,
@@ -60,10 +92,8 @@ void add_notes(const FlatnessArguments& a,
                Figures& figures) {
   double band = std::numeric_limits<double>::infinity();
   if (!a.whole) band = a.search.options.inlier_distance.value_or(default_inlier_distance(cloud));
-  std::string cut;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (is_cut(all[i].flatness, band)) cut += (cut.empty() ? "" : ", ") + std::to_string(i + 1);
-  }
+  const std::string cut =
+      planes_that(all, [&](const MeasuredFlatness& one) { return is_cut(one.flatness, band); });
   if (!cut.empty()) {
     figures.text("cut_planes", "planes cut by the search", cut);
     figures.note(
@@ -71,9 +101,7 @@ void add_notes(const FlatnessArguments& a,
         " fill the band of the search: the surface or its noise reaches farther than that, and its "
         "flatness is larger. Raise --inlier-mm, or give --whole.");
   }
-  if (!is_cut(all.front().flatness, band)) {
-    figures.note("Plane 1: " + flatness_verdict(all.front()));
-  }
+  add_verdicts(all, band, figures);
 }
 
 std::vector<MeasuredFlatness> measured(const FlatnessArguments& a,

@@ -12,9 +12,14 @@ namespace {
 constexpr double kTextSize = 18;
 constexpr double kTick = 6;  // [px]
 
+/// Closer than the spacing where that would leave fewer than three, which show no scale.
 std::vector<double> ticks_of(const PlotAxis& axis, int pixels, int spacing) {
-  return round_ticks(
-      std::min(axis.low, axis.high), std::max(axis.low, axis.high), std::max(2, pixels / spacing));
+  const int usual = std::max(2, pixels / spacing);
+  std::vector<double> ticks;
+  for (int count = usual; count <= 2 * usual && ticks.size() < 3; ++count) {
+    ticks = round_ticks(std::min(axis.low, axis.high), std::max(axis.low, axis.high), count);
+  }
+  return ticks;
 }
 
 double share_of(const PlotAxis& axis, double value) {

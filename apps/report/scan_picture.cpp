@@ -19,6 +19,7 @@ namespace {
 
 constexpr Color kBackground{247, 248, 250};
 constexpr int kFiner = 2;               // splatted pixels per pixel of the picture, along each side
+constexpr double kLeastFacing = 0.05;   // of the points, for the others to be left out
 constexpr double kOutlierShare = 5e-4;  // of the points may lie outside the panels, per side
 
 /// A view of the cloud while it is splatted: the nearest point of every pixel.
@@ -71,6 +72,16 @@ void splat_point(Splat& splat, std::size_t index, const Eigen::Vector3d& seen, d
   }
 }
 
+/// Whether enough of the cloud faces the viewer to show it without what faces away; a wall seen
+/// from behind would leave an empty panel.
+bool faces(const PointCloud& cloud, const ViewDirection& view) {
+  std::size_t facing = 0;
+  for (const Eigen::Vector3f& normal : cloud.normals) {
+    facing += normal.cast<double>().dot(view.towards_viewer) >= 0 ? 1 : 0;
+  }
+  return static_cast<double>(facing) >= kLeastFacing * static_cast<double>(cloud.size());
+}
+
 Splat splat_cloud(const PointCloud& cloud,
                   const ViewPanels& panels,
                   std::size_t index,
@@ -81,7 +92,7 @@ Splat splat_cloud(const PointCloud& cloud,
   splat.height.assign(pixels, std::numeric_limits<float>::quiet_NaN());
   splat.point.assign(pixels, 0);
   const double scale = panels.pixels_per_metre * kFiner;
-  const bool culled = options.hide_backs && !cloud.normals.empty();
+  const bool culled = options.hide_backs && !cloud.normals.empty() && faces(cloud, view);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (!cloud.points[i].allFinite()) continue;
     if (culled && cloud.normals[i].cast<double>().dot(view.towards_viewer) < 0) continue;
