@@ -4,10 +4,23 @@
 #include <facula/reconstruct/register/scan_project.hpp>
 #include <facula/tests/support/real_data.hpp>
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace facula {
 namespace {
+
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
+                                            const std::string& extension) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  }
+  return files;
+}
 
 void expect_same(const std::filesystem::path& set, const OccupancyOptions& options) {
   const ScanProject project = read_scan_project(set);
@@ -33,15 +46,19 @@ TEST(SameAsOctoMap, ForACorridorOfThreeScans) {
 
 TEST(SameAsOctoMap, ForTheBunny) {
   FACULA_REQUIRE_REAL_DATA(set, "range/stanford-bunny");
-  const ScanProject project = read_scan_project(set / "data/bun000.ply.xz");
-  PointCloud cloud = project.scans.front().cloud;
-  cloud.sensor_origin.assign(cloud.size(), {0, 0.1F, 0.5F});
-  const OccupancyOptions options{.resolution = 0.002};
-  OccupancyMap map(options);
-  OctomapJudge judge(options);
-  map.insert(cloud);
-  judge.insert(cloud);
-  EXPECT_TRUE(judge.verdict(map).same_ot);
+  const std::vector<std::filesystem::path> scans = files_of(set / "data", ".xz");
+  ASSERT_EQ(scans.size(), 10U);
+  for (const auto& scan : scans) {
+    PointCloud cloud = read_scan_project(scan).scans.front().cloud;
+    cloud.sensor_origin.assign(cloud.size(), {0, 0.1F, 0.5F});
+    const bool first = scan.filename() == "bun000.ply.xz";
+    const OccupancyOptions options{.resolution = first ? 0.002 : 0.005};
+    OccupancyMap map(options);
+    OctomapJudge judge(options);
+    map.insert(cloud);
+    judge.insert(cloud);
+    EXPECT_TRUE(judge.verdict(map).same_ot) << scan;
+  }
 }
 
 TEST(SameAsOctoMap, ForRoomsOfADepthCamera) {
@@ -52,7 +69,16 @@ TEST(SameAsOctoMap, ForRoomsOfADepthCamera) {
 
 TEST(SameAsOctoMap, ForASpinningRangeFinder) {
   FACULA_REQUIRE_REAL_DATA(set, "range/os3ds-rotating-lidar");
-  expect_same(set / "210716-1531-LiDAR-90-Moderate.csv", {.resolution = 0.05});
+  const std::vector<std::filesystem::path> scans = files_of(set, ".csv");
+  ASSERT_EQ(scans.size(), 8U);
+  for (const auto& scan : scans) expect_same(scan, {.resolution = 0.05});
+}
+
+TEST(SameAsOctoMap, ForTheCloudsOfPclsTests) {
+  FACULA_REQUIRE_REAL_DATA(set, "range/pcl-test");
+  const std::vector<std::filesystem::path> clouds = files_of(set, ".pcd");
+  ASSERT_EQ(clouds.size(), 3U);
+  for (const auto& cloud : clouds) expect_same(cloud, {.resolution = 0.01});
 }
 
 TEST(SameAsOctoMap, ForOctoMapsOwnDemonstrationScan) {
