@@ -23,15 +23,16 @@ void repair(TriangleMesh& mesh, Figures& figures) {
   }
 }
 
-void remove_islands(TriangleMesh& mesh,
-                    double voxel,
-                    const MeshStepArguments& a,
-                    Figures& figures) {
+std::size_t remove_islands(TriangleMesh& mesh,
+                           double voxel,
+                           const MeshStepArguments& a,
+                           Figures& figures) {
   const double least = a.min_island.value_or(10 * voxel);
-  if (!a.keep_largest && least == 0) return;
+  if (!a.keep_largest && least == 0) return 0;
   std::size_t removed = 0;
   mesh = without_islands(mesh, {.keep_largest = a.keep_largest, .min_diameter = least}, &removed);
   figures.count("islands_removed", "islands removed", removed);
+  return removed;
 }
 
 void fill(TriangleMesh& mesh, const MeshStepArguments& a, Figures& figures) {
@@ -94,7 +95,7 @@ MeshVerdict run_mesh_steps(TriangleMesh& mesh,
                            const MeshStepArguments& a,
                            Figures& figures) {
   repair(mesh, figures);
-  remove_islands(mesh, voxel, a, figures);
+  std::size_t pieces_removed = remove_islands(mesh, voxel, a, figures);
   require(!mesh.empty(), "no piece of the mesh is left; give a smaller --min-island-mm");
   fill(mesh, a, figures);
   mesh = smoothed(mesh, a.smooth, a.num_threads);
@@ -104,8 +105,14 @@ MeshVerdict run_mesh_steps(TriangleMesh& mesh,
   if (a.watertight) {
     WatertightResult closed = make_watertight(mesh, cloud.points, {.num_threads = a.num_threads});
     figures.text("watertight_by", "made watertight", closed.how);
+    pieces_removed += closed.pieces_removed;
     mesh = std::move(closed.mesh);
     verdict = std::move(closed.verdict);
+  }
+  if (pieces_removed > 0 && !cloud.empty()) {
+    figures.note(
+        "The distances of the points count all of them, also those of the pieces that were removed "
+        "and have no surface now: where these are many, p95 and the largest tell of them.");
   }
   if (a.color) color_mesh(mesh, cloud, a.num_threads);
   return verdict ? *verdict : judge_mesh(mesh, cloud.points, a.num_threads);

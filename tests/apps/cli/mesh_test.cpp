@@ -48,6 +48,13 @@ TEST_F(MeshInBlocks, GivesTheMeshThatMoreMemoryGives) {
   EXPECT_EQ(pieces.at("triangles"), whole.at("triangles"));
   EXPECT_TRUE(triangles_by_place(read_mesh(folder_ / "pieces.ply")) ==
               triangles_by_place(read_mesh(folder_ / "whole.ply")));
+  // The points of pieces that are removed still count in the distances, which is said.
+  const Json largest = figures_of("--voxel-mm 1.5 --keep-largest --out largest.ply");
+  EXPECT_GT(largest.at("islands_removed"), 0);
+  EXPECT_EQ(largest.at("deviation").at("count"), whole.at("deviation").at("count"));
+  EXPECT_GT(largest.at("deviation").at("max_mm"), whole.at("deviation").at("max_mm"));
+  EXPECT_NE(largest.dump().find("also those of the pieces that were removed"), std::string::npos);
+  EXPECT_EQ(whole.dump().find("pieces that were removed"), std::string::npos);
 }
 
 TEST_F(MeshInBlocks, RefusesWhatNeedsTheWholeMesh) {
