@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 
@@ -149,7 +150,10 @@ std::vector<ExtractedPlane> grow_planes(const PointCloud& cloud,
   grid.check(cloud.size());
   require(cloud.empty() || !cloud.normals.empty(),
           "growing planes over a grid needs normals, the cloud has none; estimate them first");
-  PlanePool pool(cloud, options);
+  // The flattest places come first, the largest planes not: all are grown, then the largest kept.
+  PlaneExtractionOptions all = options;
+  all.max_planes = std::numeric_limits<int>::max();
+  PlanePool pool(cloud, all);
   Field field(cloud, grid);
   int failures = 0;
   for (const std::size_t seed : field.seeds()) {
@@ -160,7 +164,11 @@ std::vector<ExtractedPlane> grow_planes(const PointCloud& cloud,
     failures = pool.take(plane) ? 0 : failures + 1;
     field.keep_only(pool.left());
   }
-  return std::move(pool).planes();
+  std::vector<ExtractedPlane> planes = std::move(pool).planes();
+  if (planes.size() > static_cast<std::size_t>(options.max_planes)) {
+    planes.erase(planes.begin() + options.max_planes, planes.end());
+  }
+  return planes;
 }
 
 }  // namespace facula

@@ -5,7 +5,9 @@
 #include <facula/reconstruct/measure/plane.hpp>
 #include <facula/tests/support/matchers.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -72,6 +74,29 @@ void expect_walls(const std::vector<ExtractedPlane>& planes) {
 TEST(GrowPlanes, FindsTheWallsThatTheScanSees) {
   const GridScan scan = scan_room(0.002);
   expect_walls(grow_planes(scan.cloud, scan.grid, {.min_points = 300}));
+}
+
+TEST(GrowPlanes, KeepsTheLargestWhereThereAreMore) {
+  const GridScan scan = scan_room(0.002);
+  for (int most = 1; most < 5; ++most) {
+    const auto planes = grow_planes(scan.cloud, scan.grid, {.min_points = 300, .max_planes = most});
+    ASSERT_EQ(planes.size(), static_cast<std::size_t>(most));
+    // No wall that is missing is larger than one that was found, but for points at its edges.
+    std::ptrdiff_t least_found = std::numeric_limits<std::ptrdiff_t>::max();
+    std::ptrdiff_t most_missed = 0;
+    for (const Plane& wall : kWalls) {
+      const auto seen =
+          std::count_if(scan.cloud.points.begin(), scan.cloud.points.end(), [&](const auto& p) {
+            return std::abs(wall.signed_distance(p.template cast<double>())) < 0.01;
+          });
+      const bool found = std::any_of(planes.begin(), planes.end(), [&](const auto& plane) {
+        return plane.fit.plane.normal.dot(wall.normal) > 0.99;
+      });
+      if (found) least_found = std::min(least_found, seen);
+      if (!found) most_missed = std::max(most_missed, seen);
+    }
+    EXPECT_GT(double(least_found), 0.9 * double(most_missed)) << most;
+  }
 }
 
 TEST(GrowPlanes, AgreesWithRansac) {
