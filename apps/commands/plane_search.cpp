@@ -33,6 +33,35 @@ void require_spread(const SearchedCloud& searched) {
           " on one line or in one spot, which no plane fits; choose another file");
 }
 
+SearchedCloud searched_points(const ScanProject& project) {
+  if (project.scans.size() == 1 && !project.scans[0].grid.empty()) {
+    return {project.fused(), project.scans[0].grid, pose_errors(project)};
+  }
+  FusedScans fused = fuse_apart(project);
+  return {std::move(fused.cloud), {}, std::move(fused.poses), fused.doubles};
+}
+
+/// Normals tell the faces of a wall from the points in front of it.
+void add_normals(SearchedCloud& searched, int num_threads) {
+  if (searched.grid.empty()) {
+    estimate_normals(searched.cloud, {.num_threads = num_threads});
+  } else {
+    searched.cloud.normals =
+        grid_normals(searched.cloud, searched.grid, {.num_threads = num_threads});
+  }
+}
+
+/// Largest first. Sets the inlier distance where none was given.
+std::vector<ExtractedPlane> planes_in(const SearchedCloud& searched,
+                                      PlaneExtractionOptions& options) {
+  if (!options.inlier_distance) options.inlier_distance = default_inlier_distance(searched.cloud);
+  std::vector<ExtractedPlane> planes = searched.grid.empty()
+                                           ? extract_planes(searched.cloud, options)
+                                           : grow_planes(searched.cloud, searched.grid, options);
+  add_pose_responses(searched.cloud, searched.poses, planes);
+  return planes;
+}
+
 bool all_lists(const std::vector<std::filesystem::path>& paths) {
   return std::all_of(paths.begin(), paths.end(), is_pan_tilt_list);
 }
@@ -82,15 +111,11 @@ SearchedCloud read_scans(const PlaneSearch& search, Session& session) {
   require_surface(scans.points_read, scans.stripes, search.scans.front());
   session.figures.count("points", "points", scans.points_read);
   session.figures.count("mixed_removed", "mixed points removed", scans.mixed_removed);
-  if (scans.project.scans.size() == 1 && !scans.project.scans[0].grid.empty()) {
-    PointCloud cloud = scans.project.fused();
-    return {std::move(cloud), std::move(scans.project.scans[0].grid), pose_errors(scans.project)};
+  SearchedCloud searched = searched_points(scans.project);
+  if (searched.doubles > 0) {
+    session.figures.count("doubles_removed", "copies of points left out", searched.doubles);
   }
-  FusedScans fused = fuse_apart(scans.project);
-  if (fused.doubles > 0) {
-    session.figures.count("doubles_removed", "copies of points left out", fused.doubles);
-  }
-  return {std::move(fused.cloud), {}, std::move(fused.poses), fused.doubles};
+  return searched;
 }
 
 SearchedCloud read_searched(const PlaneSearch& search, Session& session) {
@@ -109,25 +134,16 @@ SearchedCloud read_searched(const PlaneSearch& search, Session& session) {
   require(search.method != "grid" || !searched.grid.empty(),
           "expected a single scan with its grid for --method grid; use --method ransac");
   session.step("estimating normals", 2, 3);
-  if (searched.grid.empty()) {
-    estimate_normals(searched.cloud, {.num_threads = session.num_threads});
-  } else {
-    searched.cloud.normals =
-        grid_normals(searched.cloud, searched.grid, {.num_threads = session.num_threads});
-  }
+  add_normals(searched, session.num_threads);
   return searched;
 }
 
-void add_pose_errors(const SearchedCloud& searched,
-                     std::vector<ExtractedPlane>& planes,
-                     Session& session) {
-  if (searched.poses.empty()) return;
-  add_pose_responses(searched.cloud, searched.poses, planes);
-  const auto& roots = searched.poses.root;
+void report_poses(const PoseErrors& poses, Figures& figures) {
+  if (poses.empty()) return;
+  const auto& roots = poses.root;
   const auto unsure =
       std::count_if(roots.begin(), roots.end(), [](const auto& root) { return !root.isZero(0); });
-  session.figures.count(
-      "unsure_poses", "poses whose uncertainty counts", static_cast<std::size_t>(unsure));
+  figures.count("unsure_poses", "poses whose uncertainty counts", static_cast<std::size_t>(unsure));
 }
 
 }  // namespace
@@ -144,7 +160,7 @@ void declare_plane_search(Arguments& arguments, PlaneSearch& search) {
                    kMillimetres,
                    "farthest from the plane that a point of it lies; else 4 times the noise");
   arguments.whole("--min-points", search.options.min_points, "smallest plane");
-  arguments.whole("--max-planes", search.options.max_planes, "stop after this many");
+  arguments.whole("--max-planes", search.options.max_planes, "keep so many, the largest");
   arguments.choice("--method",
                    search.method,
                    {"auto", "grid", "ransac"},
@@ -182,10 +198,7 @@ FoundPlanes find_planes(const PlaneSearch& search, Session& session) {
           "; leave it out to keep all points");
   SearchedCloud searched = read_searched(search, session);
   session.step("looking for planes", 3, 3);
-  if (!options.inlier_distance) options.inlier_distance = default_inlier_distance(searched.cloud);
-  FoundPlanes found;
-  found.planes = searched.grid.empty() ? extract_planes(searched.cloud, options)
-                                       : grow_planes(searched.cloud, searched.grid, options);
+  FoundPlanes found{.cloud = {}, .planes = planes_in(searched, options)};
   session.end_steps();
   require(!found.planes.empty(),
           "expected a plane of ",
@@ -195,11 +208,19 @@ FoundPlanes find_planes(const PlaneSearch& search, Session& session) {
           ", got none; lower --min-points or raise --inlier-mm (it was ",
           1000 * *options.inlier_distance,
           " mm)");
-  add_pose_errors(searched, found.planes, session);
+  report_poses(searched.poses, session.figures);
   session.figures.number("inlier_mm", "farthest from a plane", 1000 * *options.inlier_distance, 2);
   session.figures.count("plane_count", "planes", found.planes.size());
   found.cloud = std::move(searched.cloud);
+  found.inlier_distance = *options.inlier_distance;
   return found;
+}
+
+FoundPlanes planes_of(const ScanProject& project, PlaneExtractionOptions options) {
+  SearchedCloud searched = searched_points(project);
+  add_normals(searched, options.num_threads);
+  std::vector<ExtractedPlane> planes = planes_in(searched, options);
+  return {std::move(searched.cloud), std::move(planes), *options.inlier_distance};
 }
 
 const ExtractedPlane& plane_called(const std::vector<ExtractedPlane>& planes, std::size_t number) {

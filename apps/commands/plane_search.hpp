@@ -4,6 +4,7 @@
 #include <facula/apps/cli/arguments.hpp>
 #include <facula/apps/cli/session.hpp>
 #include <facula/reconstruct/measure/plane_relations.hpp>
+#include <facula/reconstruct/register/scan_project.hpp>
 
 #include <cstddef>
 #include <filesystem>
@@ -33,6 +34,7 @@ struct PlaneSearch {
 struct FoundPlanes {
   PointCloud cloud;
   std::vector<ExtractedPlane> planes;  ///< largest first; plane 1 is the first
+  double inlier_distance = 0;          ///< they were found with [m]
 };
 
 void declare_plane_search(Arguments& arguments, PlaneSearch& search);
@@ -43,6 +45,10 @@ void declare_shared_range(Arguments& arguments, PlaneSearch& search);
 /// Reads the scans, finds their planes and reports how many points and planes there are. Throws
 /// Error when there is no plane.
 FoundPlanes find_planes(const PlaneSearch& search, Session& session);
+
+/// The same of scans that are read, as find_planes() finds them with the same options; there may be
+/// none.
+FoundPlanes planes_of(const ScanProject& project, PlaneExtractionOptions options);
 
 /// The plane that a person calls `number`, 1 the largest. Throws Error when there is none.
 const ExtractedPlane& plane_called(const std::vector<ExtractedPlane>& planes, std::size_t number);

@@ -7,12 +7,11 @@
 #include <facula/apps/commands/map_report.hpp>
 #include <facula/apps/commands/measure_compare.hpp>
 #include <facula/apps/commands/path_table.hpp>
+#include <facula/apps/commands/plane_search.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
 #include <facula/apps/commands/report.hpp>
 #include <facula/apps/commands/report_sections.hpp>
 #include <facula/apps/report/report_pictures.hpp>
-#include <facula/reconstruct/filter/normals.hpp>
-#include <facula/reconstruct/measure/pose_errors.hpp>
 #include <facula/reconstruct/mesh/mesh_exchange.hpp>
 
 #include <memory>
@@ -60,22 +59,15 @@ void declare(Arguments& arguments, ReportArguments& a) {
   arguments.input("--grid", a.grid, "a navigation grid (.yaml) from above");
 }
 
-/// Normals tell the faces of a wall from the points in front of it.
 ReportSection planes_section(const std::string& heading,
                              const ScanProject& project,
                              std::optional<double> inlier_distance,
                              int num_threads) {
-  FusedScans fused = fuse_apart(project);
-  PointCloud& cloud = fused.cloud;
-  NormalOptions normals;
-  normals.num_threads = num_threads;
-  estimate_normals(cloud, normals);
   PlaneExtractionOptions options;
-  options.inlier_distance = inlier_distance ? *inlier_distance : default_inlier_distance(cloud);
+  options.inlier_distance = inlier_distance;
   options.num_threads = num_threads;
-  std::vector<ExtractedPlane> planes = extract_planes(cloud, options);
-  add_pose_responses(cloud, fused.poses, planes);
-  return cloud_section(heading, cloud, planes, *options.inlier_distance);
+  const FoundPlanes found = planes_of(project, options);
+  return cloud_section(heading, found.cloud, found.planes, found.inlier_distance);
 }
 
 void add_scans(const ReportArguments& a, int num_threads, Report& report) {

@@ -124,6 +124,7 @@ ReportSection cloud_section(const std::string& heading,
   ReportSection section{heading, "", {}, {}};
   section.pictures.push_back(
       picture("The points from the front, the side and above.", scan_picture(cloud)));
+  section.text = "No plane was found in these points.";
   if (planes.empty()) return section;
   section.text =
       "Planes found in the points; blue points lie below a plane, red ones above. Flatness is that "

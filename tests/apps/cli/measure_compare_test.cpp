@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <facula/acquire/core/whole_file.hpp>
 #include <facula/tests/apps/cli/measure_fixture.hpp>
 
 #include <Eigen/Geometry>
@@ -86,6 +87,24 @@ TEST_F(Measure, TheHistogramHoldsEveryPointThatWasCompared) {
   for (const Json& row : figures.at("histogram")) listed += row.at("points").get<std::size_t>();
   EXPECT_EQ(listed, figures.at("count").get<std::size_t>());
   EXPECT_TRUE(figures.at("histogram").back().at("to_mm").is_null());
+}
+
+TEST_F(Measure, TheReportShowsThePlanesOfMeasurePlanes) {
+  const ProgramRun made =
+      run("facula simulate data/scenes/furnished_room.toml --rig data/rigs/head_fs1500.toml "
+          "--step-deg 6 --position-mm -1500 -300 1100 --out room && facula extract "
+          "room --out room.pcd "
+          "&& facula report --scan room.pcd --out room.html");
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string html = read_whole_file(folder_ / "room.html");
+  const Json planes = figures_of("planes room.pcd").at("planes");
+  ASSERT_GE(planes.size(), 2U);
+  std::size_t at = 0;
+  for (const Json& plane : planes) {
+    at = html.find(">" + std::to_string(plane.at("points").get<std::size_t>()) + "<", at);
+    ASSERT_NE(at, std::string::npos) << plane;
+    ++at;
+  }
 }
 
 }  // namespace
