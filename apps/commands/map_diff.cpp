@@ -102,10 +102,13 @@ void run(const DiffArguments& a, Session& session) {
   session.step("comparing", 2, 3);
   const MapDiff diff = diff_maps(before, after, pose_of(a.pose), options);
   session.step("writing", 3, 3);
-  if (!a.out.empty()) write_cloud(a.out, cloud_of_changes(diff));
+  const bool changed = !diff.cells.empty();
+  if (!a.out.empty() && changed) write_cloud(a.out, cloud_of_changes(diff));
   if (!a.csv.empty()) write_table_csv(a.csv, table_of(diff, diff.clusters.size()));
   session.end_steps();
   report(diff, session.figures);
+  if (a.out.empty() || changed) return;
+  session.figures.note("Nothing has changed: '" + a.out.string() + "' was not written.");
 }
 
 }  // namespace

@@ -79,10 +79,12 @@ TEST_F(MapFiles, DiffListsAndColorsWhatMoved) {
 }
 
 TEST_F(MapFiles, DiffSeesThroughThePose) {
-  const Json json =
-      figures("facula map diff before.ot after.fmap --slack-cells 0 --position-mm -400 0 0");
+  const Json json = figures(
+      "facula map diff before.ot after.fmap --slack-cells 0 --position-mm -400 0 0 --out "
+      "none.ply");
   EXPECT_EQ(json["cluster_count"], 0);
   EXPECT_EQ(json["compared_cells"], 12 * 16 * 16);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none.ply"));
 }
 
 TEST_F(MapFiles, MergeKeepsTheFirstMapsFrame) {
