@@ -5,6 +5,9 @@
 #include <facula/acquire/core/text_numbers.hpp>
 #include <facula/acquire/core/whole_file.hpp>
 
+#include <cctype>
+#include <string>
+
 namespace facula {
 namespace {
 
@@ -23,6 +26,38 @@ struct Place {
   const std::string& file;
   std::size_t line;
 };
+
+/// Whether a column of this name may hold x: "x", "x_m", "X [mm]", "Points:0", "Easting".
+bool may_be_x(std::string_view name) {
+  std::string word;
+  for (const char letter : name) {
+    const auto c = static_cast<unsigned char>(letter);
+    if (std::isalpha(c) == 0) {
+      if (!word.empty()) break;
+    } else {
+      word += static_cast<char>(std::tolower(c));
+    }
+  }
+  return word == "x" || word == "points" || word == "east" || word == "easting";
+}
+
+/// Columns of other figures, read as points, would be wrong without anyone being told.
+void check_names(std::string_view line, std::size_t leading, const Place& place) {
+  std::string_view name;
+  for (std::size_t column = 0; column <= leading; ++column) name = take_word(line, kSeparators);
+  require(may_be_x(name),
+          "line ",
+          place.line,
+          " of '",
+          place.file,
+          "' calls its column ",
+          leading + 1,
+          " '",
+          name.substr(0, 40),
+          "'; expected the columns ",
+          leading == 2 ? "col row x y z" : "x y z",
+          ", or no line of names");
+}
 
 Eigen::Vector3f point_of(std::string_view line, std::size_t leading, const Place& place) {
   Eigen::Vector3f point;
@@ -58,7 +93,10 @@ PointCloud read_point_text(const std::filesystem::path& path, std::size_t leadin
     if (is_remark(line)) continue;
     const bool is_names = may_be_names && !starts_with_number(line);
     may_be_names = false;
-    if (is_names) continue;
+    if (is_names) {
+      check_names(line, leading, {file, number});
+      continue;
+    }
     const Eigen::Vector3f point = point_of(line, leading, {file, number});
     if (point.allFinite()) cloud.points.push_back(point);
   }

@@ -204,6 +204,21 @@ TEST(CloudFile, SaysWhatIsWrongWithABadText) {
                     {"f.las", "1 2 3\n", "expected a name that ends in"}});
 }
 
+TEST(CloudFile, TakesNoOtherColumnsForPoints) {
+  const TemporaryFolder folder;
+  for (const char* names : {"plane,normal_x,normal_y", "id,x,y,z", "range_mm,pan_deg,tilt_deg"}) {
+    std::ofstream(folder.path() / "other.csv") << names << "\n1,2,3,4\n";
+    EXPECT_NE(
+        error_of([&] { read_cloud(folder.path() / "other.csv"); }).find("expected the columns"),
+        std::string::npos)
+        << names;
+  }
+  for (const char* names : {"x_m,y_m,z_m", "X Y Z", "\"Points:0\",\"Points:1\",\"Points:2\""}) {
+    std::ofstream(folder.path() / "points.csv") << names << "\n1,2,3\n";
+    EXPECT_EQ(read_cloud(folder.path() / "points.csv").size(), 1U) << names;
+  }
+}
+
 TEST(CloudFile, SurvivesEveryTruncationOfABinaryFile) {
   const TemporaryFolder folder;
   for (const char* name : {"a.ply", "a.pcd"}) {
