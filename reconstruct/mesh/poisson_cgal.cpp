@@ -34,6 +34,21 @@ std::vector<Oriented> oriented_points(const PointCloud& cloud, const Eigen::Vect
   return points;
 }
 
+/// Exactly; CGAL's solver has no cell to work in where they do, and crashes.
+bool lie_on_one_plane(const std::vector<Oriented>& points) {
+  const Kernel::Point_3& first = points.front().first;
+  const auto second = std::find_if(
+      points.begin(), points.end(), [&](const Oriented& p) { return p.first != first; });
+  if (second == points.end()) return true;
+  const auto third = std::find_if(points.begin(), points.end(), [&](const Oriented& p) {
+    return !CGAL::collinear(first, second->first, p.first);
+  });
+  if (third == points.end()) return true;
+  return std::all_of(points.begin(), points.end(), [&](const Oriented& p) {
+    return CGAL::coplanar(first, second->first, third->first, p.first);
+  });
+}
+
 /// CGAL's order follows the addresses of its cells, which differ from run to run.
 void put_in_order(std::vector<TriangleMesh::Triangle>& triangles) {
   for (auto& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
@@ -70,6 +85,10 @@ TriangleMesh mesh_poisson(const PointCloud& cloud, const PoissonOptions& options
           " apart by ",
           1000 * spacing,
           " mm");
+  require(!lie_on_one_plane(points),
+          "Poisson looks for the skin of a body, and the ",
+          points.size(),
+          " points lie on one plane; take the advancing front, which lays a surface through them");
   CGAL::get_default_random() = CGAL::Random(1);  // it draws the first points of the contour
   CGAL::Surface_mesh<Kernel::Point_3> surface;
   const bool solved =

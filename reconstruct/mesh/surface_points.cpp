@@ -13,6 +13,18 @@
 namespace facula {
 namespace {
 
+constexpr float kFarthest = 1e9F;  // engines divide by zero where products of coordinates overflow
+
+void require_near(const std::vector<Eigen::Vector3f>& points) {
+  float farthest = 0;
+  for (const Eigen::Vector3f& p : points) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
+  require(farthest < kFarthest,
+          "a point stands ",
+          farthest,
+          " m from the world's origin, where no scanner reaches; remove it, or check the unit of "
+          "the file");
+}
+
 /// Engines print and give up, or loop, where the points span no plane.
 void require_wide(const std::vector<Eigen::Vector3f>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -46,6 +58,7 @@ PointCloud surface_points(const PointCloud& cloud) {
           distinct.size(),
           " that are finite and apart");
   PointCloud points = selected(cloud, distinct);
+  require_near(points.points);
   require_wide(points.points);
   return points;
 }

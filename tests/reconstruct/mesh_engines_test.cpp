@@ -3,6 +3,7 @@
 #include <facula/reconstruct/mesh/mesh_engines.hpp>
 #include <facula/reconstruct/mesh/mesh_method.hpp>
 #include <facula/reconstruct/mesh/mesh_verdict.hpp>
+#include <facula/reconstruct/mesh/meshing.hpp>
 #include <facula/tests/reconstruct/mesh_shapes.hpp>
 #include <facula/tests/reconstruct/surfaces.hpp>
 #include <facula/tests/support/matchers.hpp>
@@ -94,6 +95,20 @@ TEST(Engines, TakeDuplicatesAndPlanes) {
   append(plane, plane);
   EXPECT_TRUE(judge_mesh(wrap_points(plane)).watertight());
   EXPECT_NEAR(mesh_statistics(mesh_scale_space(plane)).area, 1, 0.15);
+  plane.normals.assign(plane.size(), Eigen::Vector3f(0, 0, 1));
+  EXPECT_NE(error_of([&] { mesh_poisson(plane); }).find("lie on one plane"), std::string::npos);
+}
+
+TEST(Engines, RefusePointsThatNoScannerReaches) {
+  PointCloud far = sphere_points(500, 1.0);
+  far.normals = far.points;
+  for (Eigen::Vector3f& p : far.points) p *= 1e31F;
+  for (const std::string& sentence : {error_of([&] { mesh_poisson(far); }),
+                                      error_of([&] { mesh_scale_space(far); }),
+                                      error_of([&] { mesh_advancing_front(far); }),
+                                      error_of([&] { wrap_points(far); })}) {
+    EXPECT_NE(sentence.find("no scanner reaches"), std::string::npos) << sentence;
+  }
 }
 
 ScanProject project_of(PointCloud cloud) {
