@@ -29,7 +29,7 @@ struct MapArguments {
   std::string remove;
   std::string place = "auto";
   bool verify = false;
-  OccupancyOptions options;
+  OccupancyArguments occupancy;
   MapOutputs outputs;
 };
 
@@ -47,7 +47,7 @@ void declare(Arguments& arguments, MapArguments& a) {
                   "a .fmap to bring up to date: scans of new names are added, those that changed "
                   "or stand elsewhere replaced; its cells and sensor model stay");
   arguments.word("--remove", a.remove, "take the scan of this name out of a .fmap");
-  declare_occupancy(arguments, a.options);
+  declare_occupancy(arguments, a.occupancy);
   arguments.choice("--register",
                    a.place,
                    {"auto", "always", "never"},
@@ -102,7 +102,7 @@ MadeMap make_map(const MapArguments& a, Session& session) {
     MapFile file = read_map_file(a.scans[0]);
     return {std::move(file.map), std::move(file.scans)};
   }
-  OccupancyOptions options = a.options;
+  OccupancyOptions options = a.occupancy.with_box();
   options.num_threads = session.num_threads;
   const PosedScans scans = read_scans(a, session);
   MadeMap made;
@@ -119,8 +119,11 @@ MadeMap make_map(const MapArguments& a, Session& session) {
 
 /// Cells and sensor model belong to a map: a finished one is not made again with others.
 void check_sensor_model(const MapArguments& a) {
-  const auto told = [](const OccupancyOptions& o) {
-    return std::tuple(o.resolution,
+  const auto told = [](const OccupancyArguments& asked) {
+    const OccupancyOptions& o = asked.options;
+    return std::tuple(asked.box_min,
+                      asked.box_max,
+                      o.resolution,
                       o.max_range,
                       o.hit,
                       o.miss,
@@ -129,10 +132,11 @@ void check_sensor_model(const MapArguments& a) {
                       o.discretize,
                       o.weigh_sigma);
   };
-  if ((is_finished(a) || !a.update.empty()) && told(a.options) != told({})) {
+  if ((is_finished(a) || !a.update.empty()) && told(a.occupancy) != told({})) {
     fail_usage(
         "a finished map keeps its cells and sensor model; leave out --resolution-mm, "
-        "--max-range-m, --hit, --miss, --clamp-min, --clamp-max, --discretize and --weigh-sigma, "
+        "--max-range-m, --box-min-m, --box-max-m, --hit, --miss, --clamp-min, --clamp-max, "
+        "--discretize and --weigh-sigma, "
         "or make the map of its scans again");
   }
 }
@@ -143,7 +147,7 @@ void check(const MapArguments& a) {
   if (a.out.empty() && !a.outputs.any()) {
     fail_usage("expected something to write: --out, --grid, --height-map or --frontiers");
   }
-  if (a.verify && a.options.weigh_sigma) {
+  if (a.verify && a.occupancy.options.weigh_sigma) {
     fail_usage("--verify and --weigh-sigma exclude each other: OctoMap does not weigh hits");
   }
   if (a.verify && (is_finished(a) || !a.update.empty())) {
@@ -157,7 +161,7 @@ void check(const MapArguments& a) {
   if (!a.remove.empty() && a.update.empty() && !is_finished(a)) {
     fail_usage("--remove needs a map that keeps its scans: give a .fmap file, or --update one");
   }
-  a.options.check();
+  a.occupancy.with_box().check();
   check_sensor_model(a);
 }
 
@@ -171,7 +175,10 @@ void run(const MapArguments& a, Session& session) {
   const MadeMap made = make_map(a, session);
   report_map(made.map, session.figures);
   write_map_outputs(made.map, a.outputs, session);  // first: where they cannot be, nothing is left
-  for (const auto& path : a.out) write_map(path, made);
+  for (std::size_t i = 0; i < a.out.size(); ++i) {
+    write_map(a.out[i], made);
+    session.figures.text("out_" + std::to_string(i + 1), "written", a.out[i].string());
+  }
 }
 
 }  // namespace
