@@ -147,7 +147,10 @@ void describe(const std::vector<Sample>& samples,
   quality.peak_to_valley = most - least;
   const double misfit = freedom > 0 ? std::max(1.0, quality.chi_squared / freedom) : 1;
   const Eigen::MatrixXd inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-  const double factor = has_sigma ? misfit : quality.rms * quality.rms;
+  // As many points as parameters scatter about nothing: how sure they are is not known.
+  const double scatter =
+      freedom > 0 ? quality.rms * quality.rms : std::numeric_limits<double>::quiet_NaN();
+  const double factor = has_sigma ? misfit : scatter;
   quality.covariance = factor * inverse * noise * inverse;
 }
 

@@ -44,7 +44,8 @@ struct PrimitiveQuality {
   std::size_t degrees_of_freedom = 0;  ///< [1]
   int iterations = 0;                  ///< [1]
   Eigen::MatrixXd covariance;          ///< of the parameters: from the points' sigma, times
-                                       ///< chi2 / degrees where that is above 1; from rms without
+                                       ///< chi2 / degrees where that is above 1; from rms without,
+                                       ///< NaN where no degree is left to tell it
 };
 
 /// Geometric least squares by Levenberg and Marquardt's method from where the model stands. Throws

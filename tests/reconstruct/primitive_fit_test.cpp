@@ -140,6 +140,7 @@ TEST(SphereFit, IsExactOnExactPointsAndWithoutSigma) {
   EXPECT_EQ(fit.quality.chi_squared, 0);
   cloud.points.resize(4);
   EXPECT_EQ(fit_sphere(cloud, {0, 1, 2, 3}).quality.degrees_of_freedom, 0U);
+  EXPECT_TRUE(std::isnan(fit_sphere(cloud, {0, 1, 2, 3}).radius_sigma)) << "not known, not 0";
 }
 
 TEST(FindSphere, FindsTheBallAmongClutterAndRepeatsItself) {
