@@ -8,6 +8,7 @@
 #include <facula/apps/commands/map_outputs.hpp>
 #include <facula/apps/commands/map_scans.hpp>
 #include <facula/apps/commands/occupancy_arguments.hpp>
+#include <facula/apps/commands/octomap_log.hpp>
 #include <facula/apps/commands/place_scans.hpp>
 #include <facula/apps/commands/posed_scans.hpp>
 #include <facula/map/map_file.hpp>
@@ -66,9 +67,9 @@ PosedScans read_scans(const MapArguments& a, Session& session) {
   return scans;
 }
 
-bool wants_scans_kept(const MapArguments& a) {
-  return std::any_of(a.out.begin(), a.out.end(), [](const std::filesystem::path& path) {
-    return path.extension() == ".fmap";
+bool wants(const MapArguments& a, const char* extension) {
+  return std::any_of(a.out.begin(), a.out.end(), [&](const std::filesystem::path& path) {
+    return path.extension() == extension;
   });
 }
 
@@ -77,10 +78,11 @@ bool is_finished(const MapArguments& a) {
   return a.scans.size() == 1 && file_kind(a.scans[0]) == FileKind::kMap;
 }
 
-/// The map and, for .fmap files, the scans behind it.
+/// The map and, for .fmap and .graph files, the scans behind it.
 struct MadeMap {
   OccupancyMap map;
-  std::vector<KeptScan> scans;
+  std::vector<KeptScan> scans = {};
+  ScanGraph log = {};
 };
 
 MadeMap parts_of(ScanMap map) {
@@ -98,7 +100,7 @@ MadeMap changed_map(const MapArguments& a, Session& session) {
 MadeMap make_map(const MapArguments& a, Session& session) {
   if (!a.update.empty() || !a.remove.empty()) return changed_map(a, session);
   if (is_finished(a)) {
-    if (a.scans[0].extension() != ".fmap") return {OccupancyMap::read(a.scans[0]), {}};
+    if (a.scans[0].extension() != ".fmap") return {OccupancyMap::read(a.scans[0])};
     MapFile file = read_map_file(a.scans[0]);
     return {std::move(file.map), std::move(file.scans)};
   }
@@ -106,13 +108,14 @@ MadeMap make_map(const MapArguments& a, Session& session) {
   options.num_threads = session.num_threads;
   const PosedScans scans = read_scans(a, session);
   MadeMap made;
-  if (wants_scans_kept(a)) {
+  if (wants(a, ".fmap")) {
     ScanMap map(options);
     update_map(map, scans, session);
     made = parts_of(std::move(map));
   } else {
     made.map = map_of_scans(scans, options, session);
   }
+  if (wants(a, ".graph")) made.log = log_of(scans.project);
   if (a.verify) verify_map(made.map, scans, session);
   return made;
 }
@@ -142,7 +145,7 @@ void check_sensor_model(const MapArguments& a) {
 }
 
 void check(const MapArguments& a) {
-  for (const auto& path : a.out) check_output(path, {".bt", ".ot", ".fmap"});
+  for (const auto& path : a.out) check_output(path, {".bt", ".ot", ".fmap", ".graph"});
   check_map_outputs(a.outputs);
   if (a.out.empty() && !a.outputs.any()) {
     fail_usage("expected something to write: --out, --grid, --height-map or --frontiers");
@@ -152,6 +155,9 @@ void check(const MapArguments& a) {
   }
   if (a.verify && (is_finished(a) || !a.update.empty())) {
     fail_usage("--verify needs all the scans, and a map made of them alone");
+  }
+  if (wants(a, ".graph") && (is_finished(a) || !a.update.empty())) {
+    fail_usage("a .graph holds the points of scans, which maps do not keep; give the scans alone");
   }
   if (!a.update.empty() && is_finished(a)) {
     fail_usage("--update takes scans, got the finished map '",
@@ -167,6 +173,7 @@ void check(const MapArguments& a) {
 
 void write_map(const std::filesystem::path& path, const MadeMap& made) {
   if (path.extension() == ".fmap") return write_map_file(path, made.map, made.scans);
+  if (path.extension() == ".graph") return write_scan_graph(path, made.log);
   made.map.write(path);
 }
 

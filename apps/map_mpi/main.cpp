@@ -20,6 +20,7 @@ constexpr const char* kProgram = "facula-map-mpi";
 
 struct MapMpiArguments {
   MapProject project;
+  OccupancyArguments occupancy;
   std::filesystem::path json;
   int threads = 0;
   bool help = false;
@@ -46,7 +47,7 @@ void declare(Arguments& arguments, MapMpiArguments& a) {
   arguments.output("--out", a.project.out, "a new folder, on a disk that all machines share");
   arguments.required();
   arguments.flag("--overwrite", a.project.overwrite, "replace the map that lies in that folder");
-  declare_occupancy(arguments, a.project.options);
+  declare_occupancy(arguments, a.occupancy);
   arguments.output("--json",
                    a.json,
                    "write all figures to this file; - is standard output, then nothing else is "
@@ -69,6 +70,7 @@ void run(const Arguments& arguments,
   std::vector<RankFigures> figures;
   ranks.together([&] {
     parse_arguments(arguments, words);
+    a.project.options = a.occupancy.with_box();
     a.project.options.num_threads = threads_of_rank(a.threads, ranks);
     if (!ranks.first()) return;  // what all would find wrong the first rank says
     a.project.options.check();

@@ -8,6 +8,7 @@
 #include <facula/tests/support/temporary_folder.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -140,6 +141,49 @@ TEST_F(MapFiles, ALogOfOctoMapIsAProjectWhoseMapIsOctoMaps) {
   const Json json = figures("facula map log.graph --resolution-mm 50 --verify --out log.ot");
   EXPECT_EQ(json["same_as_octomap"], true);
   EXPECT_TRUE(is_same_map(OccupancyMap::read(folder_ / "log.ot"), map_of(graph.scans)));
+}
+
+TEST_F(MapFiles, ALogOfALogIsTheSame) {
+  ScanGraph graph = three_scans(0.5F);
+  write_scan_graph(folder_ / "log.graph", graph);
+  figures("facula map log.graph --out again.graph");
+  EXPECT_EQ(read_whole_file(folder_ / "again.graph"), read_whole_file(folder_ / "log.graph"));
+  EXPECT_EQ(run("facula map before.ot --out x.graph").code, 2);
+}
+
+TEST_F(MapFiles, ALogSeesEveryPointFromTheMeanOriginOfItsScan) {
+  PointCloud cloud;
+  cloud.points = {{1, 0, 0.5F}, {2, 1, 0}, {std::nanf(""), 0, 0}, {-1, 3, 1}, {0, 2, -1}};
+  cloud.sensor_origin = {{0.5F, 0, 0}, {0, 0.5F, 0}, {0, 0, 0}, {-0.5F, 0, 1}, {0, -0.5F, 0.25F}};
+  write_cloud(folder_ / "turned.ply", cloud);
+  figures("facula map turned.ply --out turned.graph");
+  const ScanGraph log = read_scan_graph(folder_ / "turned.graph");
+  ASSERT_EQ(log.scans.size(), 1U);
+  EXPECT_EQ(log.scans[0].world_from_scan.translation, Eigen::Vector3f(0, 0, 0.3125F));
+  const PointCloud world = world_cloud(log.scans[0]);
+  ASSERT_EQ(world.size(), 4U);
+  EXPECT_EQ(world.points[0], cloud.points[0]);
+  EXPECT_EQ(world.points[2], cloud.points[3]);
+}
+
+TEST_F(MapFiles, ABoxKeepsOnlyRaysThatEndInIt) {
+  PointCloud cloud;
+  cloud.points = {{1.02F, 0.02F, 0.02F}, {0.02F, 1.02F, 0.02F}, {1500, 0, 0}};
+  cloud.sensor_origin.assign(3, {0.02F, 0.02F, 0.02F});
+  write_cloud(folder_ / "stray.ply", cloud);
+  const std::string box = " --box-min-m -0.5,-0.5,-0.5 --box-max-m 1.5 0.5 0.5";
+  const Json json = figures("facula map stray.ply --verify --out boxed.ot" + box);
+  EXPECT_EQ(json["occupied_cells"], 1);
+  EXPECT_EQ(json["free_cells"], 20);  // of 5 cm, from the origin's on
+  EXPECT_EQ(figures("facula map stray.ply --out boxed.fmap" + box)["free_cells"], 20);
+  for (const char* wrong : {" --box-min-m 0 0 0",
+                            " --box-max-m 1 1 1",
+                            " --box-min-m 0 0 2 --box-max-m 1 1 1",
+                            " --box-min-m 0 0 --box-max-m 1 1 1"}) {
+    EXPECT_EQ(run("facula map stray.ply --out x.bt" + std::string(wrong)).code, 2) << wrong;
+  }
+  EXPECT_EQ(run("facula map boxed.ot --out x.bt" + box).code, 2);
+  EXPECT_EQ(run("facula map stray.ply --out x.bt --box-min-m 0 0 0 --box-max-m 9e9 1 1").code, 1);
 }
 
 TEST_F(MapFiles, KeptScansAreRemovedAndReplacedAsIfMappedAnew) {

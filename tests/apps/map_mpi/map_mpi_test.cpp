@@ -140,6 +140,17 @@ TEST_F(MapMpi, TakesFilesWithTheirOwnPosesAndOptionsOfTheSensor) {
   EXPECT_EQ(index.scans, 4U);
 }
 
+TEST_F(MapMpi, TakesABox) {
+  make_project(folder_.path(), 2);
+  const std::string words = "poses.toml --box-min-m -1 -1 -0.5 --box-max-m 2 1 1 ";
+  ASSERT_EQ(run("facula map " + words + "--register never --out one.ot").code, 0);
+  ASSERT_EQ(run("facula map poses.toml --register never --out whole.ot").code, 0);
+  const ProgramRun many = on_ranks(2, words + "--out map");
+  ASSERT_EQ(many.code, 0) << many.err;
+  EXPECT_TRUE(merged("map") == bytes("one.ot"));
+  EXPECT_LT(bytes("one.ot").size(), bytes("whole.ot").size());
+}
+
 TEST_F(MapMpi, LeavesRanksIdleWhereScansAreFew) {
   make_project(folder_.path(), 2);
   ASSERT_EQ(run("facula map poses.toml --register never --out one.ot").code, 0);
