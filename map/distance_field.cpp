@@ -44,7 +44,7 @@ void require_size(const CellBox& box, std::size_t max_memory) {
           kLongestDiagonal,
           " cells from corner to corner for a distance field, got ",
           std::ceil(std::sqrt(diagonal_squared)),
-          "; choose a smaller box or larger cells");
+          "; choose a smaller box, of the field or of the rays that make the map, or larger cells");
   const std::size_t needed = DistanceField::memory_needed(box);
   require(needed <= max_memory,
           "expected a distance field of at most ",
@@ -57,7 +57,8 @@ void require_size(const CellBox& box, std::size_t max_memory) {
           box.size(2),
           " cells need ",
           static_cast<double>(needed) / kBytesPerMegabyte,
-          " MB; choose a smaller box, larger cells, or allow more memory");
+          " MB; choose a smaller box, of the field or of the rays that make the map, larger cells, "
+          "or allow more memory");
 }
 
 std::int32_t limit_in_cells(double max_distance, double resolution) {
