@@ -96,7 +96,7 @@ void write_planes_csv(const std::filesystem::path& path,
          "peak_to_valley_mm,extent_mm,width_mm,mean_range_mm,four_sigma_over_range,"
          "normal_sigma_deg,distance_sigma_mm,centroid_x_mm,centroid_y_mm,centroid_z_mm,area_m2,"
          "axis_u_x,axis_u_y,axis_u_z,axis_v_x,axis_v_y,axis_v_z,cov_uu_rad2,cov_uv_rad2,"
-         "cov_vv_rad2,cov_uh_rad_m,cov_vh_rad_m,cov_hh_m2,chi_squared\n";
+         "cov_vv_rad2,cov_uh_rad_m,cov_vh_rad_m,cov_hh_m2,chi_squared,unexplained_mm\n";
   std::size_t number = 0;
   for (const ExtractedPlane& plane : planes) {
     const PlaneFit& fit = plane.fit;
@@ -133,7 +133,8 @@ void write_planes_csv(const std::filesystem::path& path,
                                fit.covariance(0, 2),
                                fit.covariance(1, 2),
                                fit.covariance(2, 2),
-                               fit.chi_squared}) {
+                               fit.chi_squared,
+                               1000 * fit.unexplained}) {
       file.stream() << ',' << number_text(value);
     }
     file.stream() << '\n';

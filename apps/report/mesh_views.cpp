@@ -108,7 +108,7 @@ Image8 mesh_views(const TriangleMesh& mesh, const MeshViewsOptions& options) {
   }
   const std::string remark = format_count(mesh.triangles.size()) + " triangles, " +
                              box_dimensions(box_seen(mesh, top_view()));
-  const Image8 joined = join_panels(panels, pictures, remark);
+  Image8 joined = join_panels(panels, pictures, remark);
   if (!backs) return joined;
   return below({joined, legend({{kBackColor, kBackText}}, joined.cols)});
 }

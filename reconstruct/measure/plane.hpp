@@ -24,8 +24,8 @@ struct PoseErrors;
 
 /// How the points count in a fit.
 struct PlaneFitOptions {
-  /// Weights 1 / (sigma along the normal)^2 where the cloud has sigma; else every point counts the
-  /// same, as the least-squares reference plane of ISO 12781 asks.
+  /// Weights 1 / (sigma^2 + unexplained^2), along the normal, where the cloud has sigma; else every
+  /// point counts the same, as the least-squares reference plane of ISO 12781 asks.
   bool weigh_by_sigma = true;
 
   /// How unsure the poses are of the scans that the cloud is made up of; null = exact. Not owned.
@@ -48,8 +48,8 @@ struct PlaneFit {
   double system_error = 0;    ///< 4 sigma / D (source C) [1]
 
   /// Covariance of (a, b, h) [rad^2, rad m, m^2]: the true plane has the normal n + a axis_u +
-  /// b axis_v and lies h along n from the centroid. From the points' sigma along their rays, taken
-  /// as independent, times chi2 / degrees where that is above 1; from rms where there is no sigma.
+  /// b axis_v and lies h along n from the centroid. From the points' sigma along their rays and
+  /// what it leaves unexplained, taken as independent; from rms where there is no sigma.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
   /// How (a, b, h) answer a range error that all points share [rad/m, rad/m, 1]: what independent
@@ -65,6 +65,7 @@ struct PlaneFit {
   double normal_sigma = 0;    ///< 1 standard deviation of the normal's direction, worst axis [rad]
   double distance_sigma = 0;  ///< 1 standard deviation of the distance at the centroid [m]
   double chi_squared = 0;     ///< sum of (distance / sigma)^2, 0 where there is no sigma [1]
+  double unexplained = 0;     ///< of the distances by the sigmas, unexplained_variance.hpp [m]
   std::size_t degrees_of_freedom = 0;    ///< points - 3 [1]
   std::vector<Eigen::Vector3d> outline;  ///< convex hull of the points on the plane, anticlockwise
                                          ///< about the normal [m]

@@ -3,6 +3,7 @@
 #include <facula/acquire/core/known_sigma.hpp>
 #include <facula/reconstruct/measure/bounding_rectangle.hpp>
 #include <facula/reconstruct/measure/pose_errors.hpp>
+#include <facula/reconstruct/measure/unexplained_variance.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@
 namespace facula {
 namespace {
 
-constexpr int kWeightingRounds = 3;     // the normal that projects the sigmas settles at once
+constexpr int kWeightingRounds = 4;     // what projects and adds to the sigmas settles at once
 constexpr double kLeastCosine = 0.087;  // along grazing rays the beam's width counts: 85 degrees
 
 /// The points of a fit as it wants them: doubles, with the direction and noise of their rays.
@@ -57,13 +58,13 @@ Samples samples_of(const PointCloud& cloud, const std::vector<std::size_t>& indi
   return samples;
 }
 
-/// 1 / variance of every point along the normal; empty counts every point the same.
-std::vector<double> weights_along(const Samples& samples, const Eigen::Vector3d& normal) {
-  std::vector<double> weight(samples.x.size());
-  for (std::size_t i = 0; i < weight.size(); ++i) {
-    weight[i] = 1 / std::pow(samples.sigma_along(normal, i), 2);
+/// The points' stated variances along the normal.
+std::vector<double> variances_along(const Samples& samples, const Eigen::Vector3d& normal) {
+  std::vector<double> variance(samples.sigma.size());
+  for (std::size_t i = 0; i < variance.size(); ++i) {
+    variance[i] = std::pow(samples.sigma_along(normal, i), 2);
   }
-  return weight;
+  return variance;
 }
 
 /// Sets centroid, axes and plane: the principal axes of the weighted points.
@@ -94,7 +95,27 @@ void fit_axes(const Samples& samples, const std::vector<double>& weight, PlaneFi
   fit.axis_v = fit.plane.normal.cross(fit.axis_u);
 }
 
+/// What the sigmas leave unexplained of the distances from the plane, as a variance.
+double unexplained_by(const std::vector<double>& variance,
+                      const Samples& samples,
+                      const PlaneFit& fit) {
+  std::vector<double> squares(variance.size());
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    squares[i] = std::pow(fit.plane.normal.dot(samples.x[i] - fit.centroid), 2);
+  }
+  return unexplained_variance(squares, variance, samples.x.size() - 3);
+}
+
+/// 1 / variance of every point along the normal, with what the sigmas leave unexplained.
+std::vector<double> weights_for(const Samples& samples, const PlaneFit& fit) {
+  std::vector<double> weight = variances_along(samples, fit.plane.normal);
+  const double added = unexplained_by(weight, samples, fit);
+  for (double& w : weight) w = 1 / (w + added);
+  return weight;
+}
+
 void describe_distances(const Samples& samples, PlaneFit& fit) {
+  const std::vector<double> variance = variances_along(samples, fit.plane.normal);
   double least = INFINITY;
   double most = -INFINITY;
   double squares = 0;
@@ -105,9 +126,9 @@ void describe_distances(const Samples& samples, PlaneFit& fit) {
     most = std::max(most, d);
     squares += d * d;
     sizes += std::abs(d);
-    if (samples.sigma.empty()) continue;
-    fit.chi_squared += std::pow(d / samples.sigma_along(fit.plane.normal, i), 2);
+    if (!variance.empty()) fit.chi_squared += d * d / variance[i];
   }
+  fit.unexplained = std::sqrt(unexplained_by(variance, samples, fit));
   fit.points = samples.x.size();
   fit.degrees_of_freedom = fit.points - 3;
   const double n = static_cast<double>(fit.points);
@@ -129,17 +150,15 @@ Eigen::Vector3d row_of(const PlaneFit& fit, const Eigen::Vector3d& x) {
 void describe_uncertainty(const Samples& samples,
                           const std::vector<double>& weight,
                           PlaneFit& fit) {
-  const double freedom = static_cast<double>(fit.degrees_of_freedom);
-  const double misfit = freedom > 0 ? std::max(1.0, fit.chi_squared / freedom) : 1.0;
+  const std::vector<double> stated = variances_along(samples, fit.plane.normal);
+  const double added = fit.unexplained * fit.unexplained;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
   Eigen::Vector3d shared = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < samples.x.size(); ++i) {
     const double w = weight.empty() ? 1.0 : weight[i];
     const Eigen::Vector3d row = row_of(fit, samples.x[i]);
-    const double variance = samples.sigma.empty()
-                                ? fit.rms * fit.rms
-                                : misfit * std::pow(samples.sigma_along(fit.plane.normal, i), 2);
+    const double variance = stated.empty() ? fit.rms * fit.rms : stated[i] + added;
     information += w * row * row.transpose();
     noise += w * w * variance * row * row.transpose();
     shared += w * samples.ray[i].dot(fit.plane.normal) * row;
@@ -210,7 +229,7 @@ PlaneFit fit_plane(const PointCloud& cloud,
   fit_axes(samples, weight, fit);
   if (options.weigh_by_sigma && !samples.sigma.empty()) {
     for (int round = 0; round < kWeightingRounds; ++round) {
-      weight = weights_along(samples, fit.plane.normal);
+      weight = weights_for(samples, fit);
       fit_axes(samples, weight, fit);
     }
   }

@@ -2,10 +2,13 @@
 #include <facula/acquire/core/error.hpp>
 #include <facula/acquire/core/known_sigma.hpp>
 #include <facula/reconstruct/measure/primitive_fit.hpp>
+#include <facula/reconstruct/measure/unexplained_variance.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -14,6 +17,7 @@ namespace facula {
 namespace {
 
 constexpr double kLeastCosine = 0.087;  // as plane fits: no ray is more grazing than 85 degrees
+constexpr int kWeightingRounds = 4;     // as plane fits
 
 struct Sample {
   Eigen::Vector3d x;
@@ -71,17 +75,35 @@ System system_at(const std::vector<Sample>& samples,
   return system;
 }
 
-std::vector<double> weights_at(const std::vector<Sample>& samples,
-                               const PrimitiveModel& model,
-                               bool weigh) {
-  std::vector<double> weight(samples.size(), 1.0);
+/// Distances from the model, squared, and what the sigmas state of them along the normals.
+struct Distances {
+  std::vector<double> squares;    // [m^2]
+  std::vector<double> variances;  // [m^2]
+  double least = std::numeric_limits<double>::infinity();
+  double most = -std::numeric_limits<double>::infinity();
+};
+
+Distances distances_from(const std::vector<Sample>& samples, const PrimitiveModel& model) {
+  Distances distances;
   Eigen::VectorXd gradient(model.parameters());
   Eigen::Vector3d normal;
-  for (std::size_t i = 0; i < samples.size() && weigh; ++i) {
-    model.distance(samples[i].x, normal, gradient);
-    weight[i] = 1 / std::pow(samples[i].sigma_along(normal), 2);
+  for (const Sample& sample : samples) {
+    const double d = model.distance(sample.x, normal, gradient);
+    distances.squares.push_back(d * d);
+    distances.variances.push_back(std::pow(sample.sigma_along(normal), 2));
+    distances.least = std::min(distances.least, d);
+    distances.most = std::max(distances.most, d);
   }
-  return weight;
+  return distances;
+}
+
+/// 1 / variance of every point along the normal, with what the sigmas leave unexplained.
+std::vector<double> weights_at(const std::vector<Sample>& samples, const PrimitiveModel& model) {
+  Distances distances = distances_from(samples, model);
+  const std::size_t freedom = samples.size() - static_cast<std::size_t>(model.parameters());
+  const double added = unexplained_variance(distances.squares, distances.variances, freedom);
+  for (double& variance : distances.variances) variance = 1 / (variance + added);
+  return std::move(distances.variances);
 }
 
 /// One accepted step of Levenberg and Marquardt; returns by how much of itself the cost fell, or a
@@ -118,40 +140,70 @@ void require_decided(const Eigen::MatrixXd& information) {
           "the points leave the shape's size or place undecided; they must cover more of it");
 }
 
-void describe(const std::vector<Sample>& samples,
-              const std::vector<double>& weight,
-              const PrimitiveModel& model,
-              PrimitiveQuality& quality) {
+/// Covariance of the parameters where the points' variances are those.
+Eigen::MatrixXd covariance_of(const std::vector<Sample>& samples,
+                              const std::vector<double>& weight,
+                              const std::vector<double>& variance,
+                              const PrimitiveModel& model) {
   const int n = model.parameters();
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
   Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd gradient(n);
   Eigen::Vector3d normal;
-  const bool has_sigma = samples.front().sigma > 0;
-  double squares = 0;
-  double least = std::numeric_limits<double>::infinity();
-  double most = -least;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double d = model.distance(samples[i].x, normal, gradient);
-    const double sigma = has_sigma ? samples[i].sigma_along(normal) : 1;
-    squares += d * d;
-    least = std::min(least, d);
-    most = std::max(most, d);
-    if (has_sigma) quality.chi_squared += std::pow(d / sigma, 2);
+    model.distance(samples[i].x, normal, gradient);
     information += weight[i] * gradient * gradient.transpose();
-    noise += std::pow(weight[i] * sigma, 2) * gradient * gradient.transpose();
+    noise += weight[i] * weight[i] * variance[i] * gradient * gradient.transpose();
   }
   require_decided(information);
-  const double freedom = static_cast<double>(quality.degrees_of_freedom);
-  quality.rms = freedom > 0 ? std::sqrt(squares / freedom) : 0;
-  quality.peak_to_valley = most - least;
-  const double misfit = freedom > 0 ? std::max(1.0, quality.chi_squared / freedom) : 1;
   const Eigen::MatrixXd inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-  // As many points as parameters scatter about nothing: how sure they are is not known.
-  const double scatter =
-      freedom > 0 ? quality.rms * quality.rms : std::numeric_limits<double>::quiet_NaN();
-  const double factor = has_sigma ? misfit : scatter;
-  quality.covariance = factor * inverse * noise * inverse;
+  return inverse * noise * inverse;
+}
+
+void describe(const std::vector<Sample>& samples,
+              const std::vector<double>& weight,
+              const PrimitiveModel& model,
+              PrimitiveQuality& quality) {
+  Distances distances = distances_from(samples, model);
+  const double freedom = static_cast<double>(quality.degrees_of_freedom);
+  const double squares = std::accumulate(distances.squares.begin(), distances.squares.end(), 0.0);
+  quality.rms = freedom > 0 ? std::sqrt(squares / freedom) : 0;
+  quality.peak_to_valley = distances.most - distances.least;
+  std::vector<double>& variance = distances.variances;
+  if (samples.front().sigma > 0) {
+    for (std::size_t i = 0; i < variance.size(); ++i) {
+      quality.chi_squared += distances.squares[i] / variance[i];
+    }
+    const double added =
+        unexplained_variance(distances.squares, variance, quality.degrees_of_freedom);
+    quality.unexplained = std::sqrt(added);
+    for (double& v : variance) v += added;
+  } else {
+    // As many points as parameters scatter about nothing: how sure they are is not known.
+    const double scatter =
+        freedom > 0 ? quality.rms * quality.rms : std::numeric_limits<double>::quiet_NaN();
+    std::fill(variance.begin(), variance.end(), scatter);
+  }
+  quality.covariance = covariance_of(samples, weight, variance, model);
+}
+
+/// Moves the model to where the weighted squares are least.
+void settle(const std::vector<Sample>& samples,
+            const std::vector<double>& weight,
+            const PrimitiveFitOptions& options,
+            PrimitiveModel& model,
+            PrimitiveQuality& quality) {
+  double damping = 1e-3;
+  int settled = 0;
+  for (int i = 0; i < options.max_iterations && settled < 2; ++i) {
+    const double gain = improve(samples, weight, model, damping);
+    settled = gain < 1e-12 ? settled + 1 : 0;
+    ++quality.iterations;
+  }
+  require(settled == 2,
+          "the fit reached no end within ",
+          options.max_iterations,
+          " rounds; the points may not lie on such a shape");
 }
 
 }  // namespace
@@ -167,24 +219,16 @@ PrimitiveQuality fit_primitive(const PointCloud& cloud,
           least,
           " points that are finite, got ",
           samples.size());
-  const bool weigh = options.weigh_by_sigma && samples.front().sigma > 0;
   PrimitiveQuality quality;
   quality.points = samples.size();
   quality.degrees_of_freedom = samples.size() - least;
-  std::vector<double> weight = weights_at(samples, model, weigh);
-  double damping = 1e-3;
-  int settled = 0;
-  for (int i = 0; i < options.max_iterations && settled < 2; ++i) {
-    const double gain = improve(samples, weight, model, damping);
-    settled = gain < 1e-12 ? settled + 1 : 0;
-    // The normals settle within a few rounds; weights that went on changing would never end.
-    if (i < 4) weight = weights_at(samples, model, weigh);
-    quality.iterations = i + 1;
+  std::vector<double> weight(samples.size(), 1.0);
+  settle(samples, weight, options, model, quality);
+  const bool weigh = options.weigh_by_sigma && samples.front().sigma > 0;
+  for (int round = 0; weigh && round < kWeightingRounds; ++round) {
+    weight = weights_at(samples, model);
+    settle(samples, weight, options, model, quality);
   }
-  require(settled == 2,
-          "the fit reached no end within ",
-          options.max_iterations,
-          " rounds; the points may not lie on such a shape");
   describe(samples, weight, model, quality);
   return quality;
 }

@@ -31,7 +31,7 @@ class PrimitiveModel {
 };
 
 struct PrimitiveFitOptions {
-  bool weigh_by_sigma = true;  ///< weights 1 / (sigma along the normal)^2 where the cloud has sigma
+  bool weigh_by_sigma = true;  ///< as PlaneFitOptions
   int max_iterations = 100;    ///< [1]
 };
 
@@ -42,10 +42,11 @@ struct PrimitiveQuality {
   double peak_to_valley = 0;           ///< largest minus smallest distance [m]
   double chi_squared = 0;              ///< sum of (distance / sigma)^2, 0 without sigma [1]
   std::size_t degrees_of_freedom = 0;  ///< [1]
+  double unexplained = 0;              ///< of the distances by the sigmas [m]
   int iterations = 0;                  ///< [1]
-  Eigen::MatrixXd covariance;          ///< of the parameters: from the points' sigma, times
-                                       ///< chi2 / degrees where that is above 1; from rms without,
-                                       ///< NaN where no degree is left to tell it
+  Eigen::MatrixXd covariance;          ///< of the parameters: from the points' sigma and what it
+                                       ///< leaves unexplained; from rms without, NaN where no
+                                       ///< degree is left to tell it
 };
 
 /// Geometric least squares by Levenberg and Marquardt's method from where the model stands. Throws

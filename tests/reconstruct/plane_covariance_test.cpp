@@ -19,6 +19,8 @@ struct Wall {
   Plane truth{Eigen::Vector3d(0.5, 0.2, 1).normalized(), 1.7};
   std::vector<Eigen::Vector3d> points;
   std::vector<double> sigma;
+  double rough = 0;      ///< of the wall along its normal, which no sigma knows [m]
+  double too_small = 1;  ///< factor of the sigmas that points state
 
   explicit Wall(int count) {
     Random random(3);
@@ -35,9 +37,10 @@ struct Wall {
   PointCloud seen(Random& random, double shared_error = 0) const {
     PointCloud cloud;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const double error = shared_error + sigma[i] * random.normal();
+      double error = shared_error + sigma[i] * random.normal();
+      if (rough > 0) error += rough * random.normal() / points[i].normalized().dot(truth.normal);
       cloud.points.emplace_back((points[i] + error * points[i].normalized()).cast<float>());
-      cloud.sigma.push_back(static_cast<float>(sigma[i]));
+      cloud.sigma.push_back(static_cast<float>(sigma[i] / too_small));
     }
     return cloud;
   }
@@ -51,10 +54,11 @@ Eigen::Vector3d error_of_fit(const PlaneFit& fit, const Plane& truth) {
 }
 
 struct Spread {
-  double distance = 0;  ///< mean of e' C^-1 e over 3: 1 when C is honest
-  double inside = 0;    ///< share of trials with the distance of a far point within 2 sigma
-  double far = 0;       ///< variance there [m^2]
-  double chi = 0;       ///< mean of chi2 / degrees of freedom
+  double distance = 0;     ///< mean of e' C^-1 e over 3: 1 when C is honest
+  double inside = 0;       ///< share of trials with the distance of a far point within 2 sigma
+  double far = 0;          ///< variance there [m^2]
+  double chi = 0;          ///< mean of chi2 / degrees of freedom
+  double unexplained = 0;  ///< mean [m]
 };
 
 Spread spread_of(const Wall& wall, const PlaneFitOptions& options) {
@@ -68,6 +72,7 @@ Spread spread_of(const Wall& wall, const PlaneFitOptions& options) {
     const double miss = fit.plane.signed_distance(far) - wall.truth.signed_distance(far);
     spread.inside += (std::abs(miss) <= 2 * fit.sigma_at(far) ? 1.0 : 0.0) / kTrials;
     spread.far += miss * miss / kTrials;
+    spread.unexplained += fit.unexplained / kTrials;
     spread.chi += fit.chi_squared / double(fit.degrees_of_freedom) / kTrials;
   }
   // For docs/planes.md: --gtest_output=xml writes it down.
@@ -94,18 +99,51 @@ TEST(PlaneCovariance, ShrinksWhenPointsCountByTheirSigma) {
   EXPECT_LT(weighed.far, 0.6 * equal.far);
 }
 
-TEST(PlaneCovariance, GrowsWithAMisfitThatSigmaDoesNotExplain) {
-  const Wall wall(120);
-  Random random(5);
-  PointCloud cloud = wall.seen(random);
-  const PlaneFit honest = fit_plane(cloud);
-  for (float& s : cloud.sigma) s /= 5;
-  const PlaneFit claimed = fit_plane(cloud);
-  EXPECT_NEAR(claimed.chi_squared / honest.chi_squared, 25, 1e-3);
-  const double misfit = std::max(1.0, honest.chi_squared / double(honest.degrees_of_freedom));
-  EXPECT_NEAR(claimed.covariance(0, 0) * misfit / honest.covariance(0, 0),
-              honest.chi_squared / double(honest.degrees_of_freedom),
-              1e-3);
+TEST(PlaneCovariance, IsHonestWhereSigmasLeaveSomethingUnexplained) {
+  Wall wall(120);
+  wall.rough = 0.01;
+  for (const bool weigh : {true, false}) {
+    const Spread spread = spread_of(wall, {.weigh_by_sigma = weigh});
+    EXPECT_NEAR(spread.distance, 1, 0.08) << weigh;
+    EXPECT_NEAR(spread.inside, 0.955, 0.02) << weigh;
+    EXPECT_NEAR(spread.unexplained, wall.rough, 0.03 * wall.rough) << weigh;
+    EXPECT_GT(spread.chi, 5) << weigh;
+  }
+}
+
+TEST(PlaneCovariance, GrowsWhereAllSigmasAreTooSmall) {
+  // A factor is not a sum: unequal sigmas that are all five times too small leave the plane a
+  // little too sure, by an eighth of its sigma, not by five times.
+  Wall wall(120);
+  wall.too_small = 5;
+  for (const bool weigh : {true, false}) {
+    const Spread spread = spread_of(wall, {.weigh_by_sigma = weigh});
+    EXPECT_GT(spread.inside, 0.9) << weigh;
+    EXPECT_LT(spread.distance, 1.35) << weigh;
+    EXPECT_NEAR(spread.chi, 25, weigh ? 8 : 5) << weigh;
+  }
+}
+
+TEST(PlaneCovariance, LetsNoFewPointsThatClaimToBeSureDecideThePlane) {
+  // A table of 1 m with 2 mm roughness, along whose edge five points 3 mm below state 1 um.
+  Random random(2);
+  PointCloud cloud;
+  for (int i = 0; i < 500; ++i) {
+    cloud.points.emplace_back(float(random.uniform() - 0.5),
+                              float(random.uniform() - 0.5),
+                              float(1 + 0.002 * random.normal()));
+    cloud.sigma.push_back(5e-4F);
+  }
+  for (int i = 0; i < 5; ++i) {
+    cloud.points.emplace_back(0.5F, 0.25F * float(i - 2), 0.997F);
+    cloud.sigma.push_back(1e-6F);
+  }
+  const PlaneFit fit = fit_plane(cloud);
+  EXPECT_NEAR(fit.plane.distance, 1, 4 * fit.distance_sigma);
+  EXPECT_LT(fit.distance_sigma, 2e-4);
+  EXPECT_NEAR(fit.plane.normal.x(), 0, 4 * fit.normal_sigma);
+  EXPECT_LT(fit.normal_sigma, 5e-4);
+  EXPECT_NEAR(fit.unexplained, 0.002, 2e-4);
 }
 
 TEST(PlaneCovariance, MovesWithThePointItIsGivenAt) {
