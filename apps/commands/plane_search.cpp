@@ -54,7 +54,10 @@ void add_normals(SearchedCloud& searched, int num_threads) {
 /// Largest first. Sets the inlier distance where none was given.
 std::vector<ExtractedPlane> planes_in(const SearchedCloud& searched,
                                       PlaneExtractionOptions& options) {
-  if (!options.inlier_distance) options.inlier_distance = default_inlier_distance(searched.cloud);
+  if (!options.inlier_distance) {
+    options.inlier_distance = default_inlier_distance(searched.cloud);
+    options.widen_by_sigma = true;
+  }
   std::vector<ExtractedPlane> planes = searched.grid.empty()
                                            ? extract_planes(searched.cloud, options)
                                            : grow_planes(searched.cloud, searched.grid, options);
@@ -158,7 +161,8 @@ void declare_plane_search(Arguments& arguments, PlaneSearch& search) {
   arguments.number("--inlier-mm",
                    search.options.inlier_distance,
                    kMillimetres,
-                   "farthest from the plane that a point of it lies; else 4 times the noise");
+                   "farthest from the plane that a point of it lies; else 4 times the noise, or 3 "
+                   "times a point's own sigma");
   arguments.whole("--min-points", search.options.min_points, "smallest plane");
   arguments.whole("--max-planes", search.options.max_planes, "keep so many, the largest");
   arguments.choice("--method",

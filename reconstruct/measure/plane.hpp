@@ -96,8 +96,9 @@ double distance_between(const PlaneFit& a, const PlaneFit& b);
 
 struct PlaneExtractionOptions {
   /// Farthest point of a plane [m], above 0. None: default_inlier_distance(), or 3 sigma of the
-  /// point along its ray where that is more.
+  /// point along the normal where that is more.
   std::optional<double> inlier_distance;
+  bool widen_by_sigma = false;   ///< let 3 sigma count where an inlier distance is given, too
   std::size_t min_points = 500;  ///< smallest plane [1], at least 3
   int max_planes = 12;           ///< [1], at least 1
   int iterations = 2000;         ///< RANSAC trials per plane at most [1]

@@ -95,7 +95,7 @@ class Field {
 
   /// The region around a seed: cells whose points lie on the region's plane and whose normals agree
   /// with it. The plane is fitted anew whenever the region has doubled.
-  Plane grow(std::size_t seed, double reach, double max_normal_angle) {
+  Plane grow(std::size_t seed, const PlanePool& pool, double max_normal_angle) {
     Region region{place(seed)};
     Plane plane{normal(seed).normalized(), normal(seed).normalized().dot(place(seed))};
     const double min_cosine = std::cos(max_normal_angle);
@@ -112,7 +112,8 @@ class Field {
       }
       for_neighbours(cell, [&](std::size_t next) {
         if (taken_[next] != 0) return;
-        if (!(std::abs(plane.signed_distance(place(next))) <= reach)) return;
+        const double away = std::abs(plane.signed_distance(place(next)));
+        if (!(away <= pool.reach_of(point(next), plane.normal))) return;
         if (!(std::abs(plane.normal.dot(normal(next))) >= min_cosine)) return;
         taken_[next] = kTaken;
         open.push_back(next);
@@ -159,7 +160,7 @@ std::vector<ExtractedPlane> grow_planes(const PointCloud& cloud,
   for (const std::size_t seed : field.seeds()) {
     if (pool.full() || failures >= kFailures) break;
     if (field.taken(seed)) continue;
-    const Plane plane = field.grow(seed, pool.inlier_distance(), options.max_normal_angle);
+    const Plane plane = field.grow(seed, pool, options.max_normal_angle);
     if (field.size() < options.min_points / 2) continue;
     failures = pool.take(plane) ? 0 : failures + 1;
     field.keep_only(pool.left());

@@ -22,6 +22,7 @@ namespace {
 using Indices = std::vector<std::size_t>;
 
 constexpr int kRefinements = 8;
+constexpr double kSigmas = 3;             // along the normal, that points lie from their plane
 constexpr double kGrowth = 1.01;          // a round that adds less was the last
 constexpr double kPlainShare = 0.5;       // of the variance that a bend must explain
 constexpr std::size_t kSpacings = 20000;  // points whose spacing is measured [1]
@@ -76,10 +77,15 @@ PlanePool::PlanePool(const PointCloud& cloud, const PlaneExtractionOptions& opti
   }
 }
 
-double PlanePool::reach_of(std::size_t point) const {
-  if (options_.inlier_distance || cloud_.sigma.empty()) return inlier_distance_;
+double PlanePool::reach_of(std::size_t point, const Eigen::Vector3d& normal) const {
+  const bool widen = options_.widen_by_sigma || !options_.inlier_distance;
+  if (!widen || cloud_.sigma.empty()) return inlier_distance_;
   if (!is_known_sigma(cloud_.sigma[point])) return inlier_distance_;
-  return std::max(inlier_distance_, 3.0 * static_cast<double>(cloud_.sigma[point]));
+  const double sigma = kSigmas * static_cast<double>(cloud_.sigma[point]);
+  if (sigma <= inlier_distance_) return inlier_distance_;
+  Eigen::Vector3d ray = cloud_.points[point].cast<double>();
+  if (!cloud_.sensor_origin.empty()) ray -= cloud_.sensor_origin[point].cast<double>();
+  return std::max(inlier_distance_, sigma * std::abs(ray.normalized().dot(normal)));
 }
 
 Indices PlanePool::points_near(const Plane& plane, double widening) const {
@@ -89,7 +95,7 @@ Indices PlanePool::points_near(const Plane& plane, double widening) const {
     for (std::size_t n = begin; n < end; ++n) {
       const std::size_t i = left_[n];
       const double away = std::abs(plane.signed_distance(cloud_.points[i].cast<double>()));
-      if (!(away <= widening * reach_of(i))) continue;
+      if (!(away <= widening * reach_of(i, plane.normal))) continue;
       if (!cloud_.normals.empty()) {
         const Eigen::Vector3d normal = cloud_.normals[i].cast<double>();
         if (std::abs(normal.dot(plane.normal)) < min_cosine) continue;

@@ -20,6 +20,9 @@ class PlanePool {
   const std::vector<std::size_t>& left() const { return left_; }
   double inlier_distance() const { return inlier_distance_; }
 
+  /// Farthest from a plane of this normal that this point of it may lie [m].
+  double reach_of(std::size_t point, const Eigen::Vector3d& normal) const;
+
   /// Gathers the candidate's points, refines it and keeps it when it is large and flat enough.
   /// Either way its points leave the pool. False when it was not kept.
   bool take(const Plane& candidate);
@@ -30,7 +33,6 @@ class PlanePool {
   std::vector<ExtractedPlane> planes() &&;
 
  private:
-  double reach_of(std::size_t point) const;
   std::vector<std::size_t> points_near(const Plane& plane, double widening) const;
   double gap_of(const std::vector<std::size_t>& points) const;
   std::optional<std::vector<std::size_t>> refined(Plane plane) const;

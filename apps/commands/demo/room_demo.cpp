@@ -108,7 +108,6 @@ void measure_planes(RoomDemo& demo,
   options.seed = static_cast<unsigned>(settings.seed);
   options.num_threads = settings.num_threads;
   demo.planes_cloud = cloud_for_planes(demo.project.fused(), settings);
-  options.inlier_distance = default_inlier_distance(demo.planes_cloud);
   demo.planes = extract_planes(demo.planes_cloud, options);
   write_planes_csv(settings.folder / "planes.csv", demo.planes);
   Figures& figures = session.figures.part("planes", "4 Planes against the room's walls:");
@@ -118,7 +117,6 @@ void measure_planes(RoomDemo& demo,
   const PosedCloud& first = demo.project.scans.front();
   const PointCloud one =
       cloud_for_planes(transformed(first.cloud, first.world_from_scan), settings);
-  options.inlier_distance = default_inlier_distance(one);
   report_angle_errors(extract_planes(one, options),
                       true_walls(scene),
                       figures.part("one_scan", "Angles between walls within the first scan:"));

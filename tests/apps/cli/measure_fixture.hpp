@@ -27,14 +27,15 @@ constexpr float kNoise = 0.001F;  // along every ray [m]
 inline void add_plate(PointCloud& cloud,
                       const Eigen::Vector3d& corner,
                       const Eigen::Matrix<double, 3, 2>& edges,
-                      Random& random) {
+                      Random& random,
+                      float noise = kNoise) {
   constexpr int kSide = 60;
   for (int i = 0; i < kSide; ++i) {
     for (int j = 0; j < kSide; ++j) {
       const Eigen::Vector3d x = corner + edges * Eigen::Vector2d(i, j) / (kSide - 1);
-      const Eigen::Vector3d noisy = x + kNoise * random.normal() * x.normalized();
+      const Eigen::Vector3d noisy = x + noise * random.normal() * x.normalized();
       cloud.points.emplace_back(noisy.cast<float>());
-      cloud.sigma.push_back(kNoise);
+      cloud.sigma.push_back(noise);
       cloud.sensor_origin.emplace_back(0, 0, 0);
     }
   }

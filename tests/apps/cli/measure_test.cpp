@@ -33,6 +33,26 @@ TEST_F(Measure, KnownAnglesAndDistancesLieWithinTwiceTheStatedSigma) {
   EXPECT_LT(sigma, 0.2);
 }
 
+TEST_F(Measure, AFarWallIsMeasuredByAllItsPointsHoweverNoisy) {
+  // The noise of most points says how far points lie from planes, the far wall's own is 15 times
+  // it.
+  PointCloud room = made_room();
+  Random random(9);
+  add_plate(room, {7, -1.5, -0.8}, edges({0.3, 3, 0}, {0, 0, 2}), random, 15 * kNoise);
+  write("room.pcd", room);
+  const Json figures = figures_of("planes room.pcd");
+  EXPECT_LT(figures.at("inlier_mm"), 6);
+  const Eigen::Vector3d normal = Eigen::Vector3d(3, -0.3, 0).normalized();
+  const int far =
+      plane_like(figures.at("planes"), normal, 1000 * normal.dot(Eigen::Vector3d(7, -1.5, 0)));
+  const Json& wall = figures.at("planes").at(static_cast<std::size_t>(far - 1));
+  EXPECT_GT(wall.at("points"), 3550);
+  EXPECT_NEAR(wall.at("rms_mm").get<double>(), 15, 1);
+  const Eigen::Vector3d found(wall.at("normal_x"), wall.at("normal_y"), wall.at("normal_z"));
+  const double away = std::atan2(found.cross(normal).norm(), std::abs(found.dot(normal)));
+  EXPECT_LT(away * 180 / std::acos(-1.0), 3 * wall.at("normal_sigma_deg").get<double>());
+}
+
 TEST_F(Measure, APointGivenTwiceTellsNothingNewOfAPlane) {
   const PointCloud room = made_room();
   write("room.pcd", room);
