@@ -7,7 +7,8 @@ set -euo pipefail
 
 packages=(
   # compiler, build, and the tools of the house tests
-  g++ cmake ninja-build pkg-config ccache clang-format clang-tidy universal-ctags xz-utils
+  g++ cmake ninja-build pkg-config ccache clang-format clang-tidy libclang-14-dev llvm-14-dev
+  universal-ctags xz-utils
   # geometry, images, point clouds, meshes, maps, ray casting
   libeigen3-dev libopencv-dev libpcl-dev libcgal-dev liboctomap-dev libflann-dev libembree-dev
   libtbb-dev libceres-dev libhwy-dev libassimp-dev libompl-dev
