@@ -2,6 +2,7 @@
 #include <facula/apps/cli/number_text.hpp>
 #include <facula/apps/commands/flatness_figures.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace facula {
@@ -62,10 +63,12 @@ std::string flatness_verdict(const MeasuredFlatness& surface) {
   return "Noise alone would show up to " + floor + "; what is above it is the surface's.";
 }
 
-bool is_cut(const Flatness& flatness, double band) {
+bool is_cut(const MeasuredFlatness& surface, const SearchBand& band) {
   // Noise alone has a root mean square of a quarter of the band, which is 4 sigma; points that fill
   // it evenly, 0.58 of it.
-  return flatness.total > 1.6 * band && flatness.root_mean_square > 0.29 * band;
+  const bool by_noise = band.widened && surface.uncertainty;
+  const double reach = std::max(band.reach, by_noise ? 4 * surface.uncertainty->sigma_points : 0.0);
+  return surface.flatness.total > 1.6 * reach && surface.flatness.root_mean_square > 0.29 * reach;
 }
 
 }  // namespace facula

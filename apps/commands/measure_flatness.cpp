@@ -26,6 +26,7 @@ struct FlatnessArguments {
 struct Surfaces {
   PointCloud cloud;
   std::vector<std::vector<std::size_t>> indices;
+  SearchBand band = {};
 };
 
 void declare(Arguments& arguments, FlatnessArguments& a) {
@@ -48,7 +49,7 @@ Surfaces whole_surface(const FlatnessArguments& a, Session& session) {
 
 Surfaces found_surfaces(const FlatnessArguments& a, Session& session) {
   FoundPlanes found = find_planes(a.search, session);
-  Surfaces surfaces{std::move(found.cloud), {}};
+  Surfaces surfaces{std::move(found.cloud), {}, {found.inlier_distance, found.widened}};
   for (ExtractedPlane& plane : found.planes) surfaces.indices.push_back(std::move(plane.indices));
   return surfaces;
 }
@@ -64,14 +65,16 @@ std::string planes_that(const std::vector<MeasuredFlatness>& all, const Test& te
 }
 
 /// What noise lets one say of the planes that were not cut.
-void add_verdicts(const std::vector<MeasuredFlatness>& all, double band, Figures& figures) {
+void add_verdicts(const std::vector<MeasuredFlatness>& all,
+                  const SearchBand& band,
+                  Figures& figures) {
   if (all.size() == 1 || !all.front().uncertainty) {
-    if (!is_cut(all.front().flatness, band)) figures.note(flatness_verdict(all.front()));
+    if (!is_cut(all.front(), band)) figures.note(flatness_verdict(all.front()));
     return;
   }
   const auto whole_and = [&](bool flat) {
     return planes_that(all, [&](const MeasuredFlatness& one) {
-      return !is_cut(one.flatness, band) && one.uncertainty &&
+      return !is_cut(one, band) && one.uncertainty &&
              (one.flatness.total <= one.uncertainty->floor_p95) == flat;
     });
   };
@@ -86,14 +89,9 @@ void add_verdicts(const std::vector<MeasuredFlatness>& all, double band, Figures
 }
 
 /// Flatness of a slice says nothing of the surface it was cut from.
-void add_notes(const FlatnessArguments& a,
-               const PointCloud& cloud,
-               const std::vector<MeasuredFlatness>& all,
-               Figures& figures) {
-  double band = std::numeric_limits<double>::infinity();
-  if (!a.whole) band = a.search.options.inlier_distance.value_or(default_inlier_distance(cloud));
+void add_notes(const std::vector<MeasuredFlatness>& all, const SearchBand& band, Figures& figures) {
   const std::string cut =
-      planes_that(all, [&](const MeasuredFlatness& one) { return is_cut(one.flatness, band); });
+      planes_that(all, [&](const MeasuredFlatness& one) { return is_cut(one, band); });
   if (!cut.empty()) {
     figures.text("cut_planes", "planes cut by the search", cut);
     figures.note(
@@ -130,7 +128,7 @@ void run(const FlatnessArguments& a, Session& session) {
   FigureTable table = flatness_table(all);
   if (!a.search.csv.empty()) write_table_csv(a.search.csv, table);
   session.figures.table(std::move(table));
-  add_notes(a, surfaces.cloud, all, session.figures);
+  add_notes(all, surfaces.band, session.figures);
 }
 
 }  // namespace

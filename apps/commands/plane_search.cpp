@@ -217,6 +217,7 @@ FoundPlanes find_planes(const PlaneSearch& search, Session& session) {
   session.figures.count("plane_count", "planes", found.planes.size());
   found.cloud = std::move(searched.cloud);
   found.inlier_distance = *options.inlier_distance;
+  found.widened = options.widen_by_sigma;
   return found;
 }
 
@@ -224,7 +225,10 @@ FoundPlanes planes_of(const ScanProject& project, PlaneExtractionOptions options
   SearchedCloud searched = searched_points(project);
   add_normals(searched, options.num_threads);
   std::vector<ExtractedPlane> planes = planes_in(searched, options);
-  return {std::move(searched.cloud), std::move(planes), *options.inlier_distance};
+  return {std::move(searched.cloud),
+          std::move(planes),
+          *options.inlier_distance,
+          options.widen_by_sigma};
 }
 
 const ExtractedPlane& plane_called(const std::vector<ExtractedPlane>& planes, std::size_t number) {

@@ -35,6 +35,7 @@ struct FoundPlanes {
   PointCloud cloud;
   std::vector<ExtractedPlane> planes;  ///< largest first; plane 1 is the first
   double inlier_distance = 0;          ///< they were found with [m]
+  bool widened = false;                ///< by the sigma of points that know theirs
 };
 
 void declare_plane_search(Arguments& arguments, PlaneSearch& search);

@@ -67,7 +67,7 @@ ReportSection planes_section(const std::string& heading,
   options.inlier_distance = inlier_distance;
   options.num_threads = num_threads;
   const FoundPlanes found = planes_of(project, options);
-  return cloud_section(heading, found.cloud, found.planes, found.inlier_distance);
+  return cloud_section(heading, found.cloud, found.planes, {found.inlier_distance, found.widened});
 }
 
 void add_scans(const ReportArguments& a, int num_threads, Report& report) {

@@ -53,10 +53,13 @@ std::vector<MeasuredFlatness> flatness_of(const PointCloud& cloud,
   return result;
 }
 
-std::string plane_caption(std::size_t number, const Flatness& flatness, double band) {
-  const std::string cut = is_cut(flatness, band)
+std::string plane_caption(std::size_t number,
+                          const MeasuredFlatness& surface,
+                          const SearchBand& band) {
+  const Flatness& flatness = surface.flatness;
+  const std::string cut = is_cut(surface, band)
                               ? " The surface or its noise reaches beyond the band of " +
-                                    fixed_text(1000 * band, 3) +
+                                    fixed_text(1000 * band.reach, 3) +
                                     " mm in which its points were sought (--plane-inlier-mm)."
                               : "";
   return "Deviations from plane " + std::to_string(number) + ": FLTt " +
@@ -120,7 +123,7 @@ ReportSection scan_section(const std::string& name, const PolarScan& scan) {
 ReportSection cloud_section(const std::string& heading,
                             const PointCloud& cloud,
                             const std::vector<ExtractedPlane>& planes,
-                            double band) {
+                            const SearchBand& band) {
   ReportSection section{heading, "", {}, {}};
   section.pictures.push_back(
       picture("The points from the front, the side and above.", scan_picture(cloud)));
@@ -135,8 +138,8 @@ ReportSection cloud_section(const std::string& heading,
   figures.table(flatness_table(flatness));
   section.tables = report_tables("Planes", figures);
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    section.pictures.push_back(picture(plane_caption(i + 1, flatness[i].flatness, band),
-                                       plane_deviation(planes[i], cloud)));
+    section.pictures.push_back(
+        picture(plane_caption(i + 1, flatness[i], band), plane_deviation(planes[i], cloud)));
   }
   return section;
 }

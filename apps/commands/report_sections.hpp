@@ -5,6 +5,7 @@
 #include <facula/acquire/core/polar_scan.hpp>
 #include <facula/acquire/core/triangle_mesh.hpp>
 #include <facula/apps/cli/figures.hpp>
+#include <facula/apps/commands/flatness_figures.hpp>
 #include <facula/apps/report/html_report.hpp>
 #include <facula/map/navigation_grid.hpp>
 #include <facula/map/occupancy_map.hpp>
@@ -12,7 +13,6 @@
 #include <facula/reconstruct/measure/plane.hpp>
 #include <facula/reconstruct/register/scan_project.hpp>
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,12 +28,12 @@ ReportSection scan_section(const std::string& name, const PolarScan& scan);
 
 /// The cloud from three sides, its planes with the figures of measure planes and measure flatness,
 /// and a picture of each plane's deviations.
-/// `band` [m] is the inlier distance they were found with, infinite where it is not known: planes
+/// `band` is what they were sought in, infinite where it is not known: planes
 /// that it cut are named.
 ReportSection cloud_section(const std::string& heading,
                             const PointCloud& cloud,
                             const std::vector<ExtractedPlane>& planes,
-                            double band = std::numeric_limits<double>::infinity());
+                            const SearchBand& band = {});
 
 /// Colour map, histogram and figures of points compared with a reference.
 ReportSection comparison_section(const std::string& heading,

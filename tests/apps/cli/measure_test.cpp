@@ -51,6 +51,9 @@ TEST_F(Measure, AFarWallIsMeasuredByAllItsPointsHoweverNoisy) {
   const Eigen::Vector3d found(wall.at("normal_x"), wall.at("normal_y"), wall.at("normal_z"));
   const double away = std::atan2(found.cross(normal).norm(), std::abs(found.dot(normal)));
   EXPECT_LT(away * 180 / std::acos(-1.0), 3 * wall.at("normal_sigma_deg").get<double>());
+  // All of it was taken, so nothing was cut; a band that is asked for does cut.
+  EXPECT_FALSE(figures_of("flatness room.pcd --trials 20").contains("cut_planes"));
+  EXPECT_TRUE(figures_of("flatness room.pcd --trials 20 --inlier-mm 6").contains("cut_planes"));
 }
 
 TEST_F(Measure, APointGivenTwiceTellsNothingNewOfAPlane) {
